@@ -132,10 +132,10 @@ def test_a_motor_that_is_too_weak_says_what_works(tmp_path: Path, table: str, fi
         ("geneva-straight", 'speed = 45\nmotor = "auto"\nload = 0.3', None),
     ],
 )
-def test_a_motor_that_turns_unevenly_is_a_warning_whose_remedy_works(
+def test_a_motor_that_turns_unevenly_is_an_error_whose_remedy_works(
     tmp_path: Path, example: str, table: str, fixed: str | None
 ) -> None:
-    """At the voltage that it says; typed, the remedy leaves no warning of the speed."""
+    """At the voltage that it says; typed, the remedy leaves no error of the speed."""
     build, inspection = build_of(tmp_path, example, table), MachineDrive()
     (said,) = (one for one in inspection.findings(build) if one.code == "machine.speed")
     data = json.loads(DrivePage().files(build)["drive.json"])["figures"]
@@ -148,7 +148,7 @@ def test_a_motor_that_turns_unevenly_is_a_warning_whose_remedy_works(
     assert said.value == pytest.approx(max(most - mean, mean - least) / mean)
     if fixed is None:
         return
-    assert said.severity is Severity.WARNING
+    assert said.severity is Severity.ERROR
     (told,) = (
         one for one in proposed_tried(Run(build, LOOK), inspection, [said]) if one.code == "machine.speed"
     )
@@ -278,12 +278,12 @@ def test_a_key_that_changes_nothing_is_warned_of_by_its_name(
     assert "machine.key" not in found(clean)
 
 
-def test_irregularity_says_nothing_of_a_lever(tmp_path: Path) -> None:
-    table = "[machine]\nspeed = 20\nirregularity = 0.1\n\n[cam]"
+def test_speed_variation_says_nothing_of_a_lever(tmp_path: Path) -> None:
+    table = "[machine]\nspeed = 20\nspeed_variation = 10\n\n[cam]"
     path = tmp_path / "lever.toml"
     said = (ROOT / "examples" / "five-bar-machine.toml").read_text(encoding="utf-8")
     path.write_text(re.sub(r"(?s)\[machine\].*?\[cam\]", table, said, count=1), encoding="utf-8")
-    assert "irregularity changes nothing" in found(Build(path, host()))["machine.key"]
+    assert "speed_variation changes nothing" in found(Build(path, host()))["machine.key"]
 
 
 @pytest.mark.parametrize(

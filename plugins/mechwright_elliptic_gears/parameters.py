@@ -297,7 +297,7 @@ class EllipticGearParams(Parameters):
                 f"bores of {self.bore:g}; make it smaller, or leave it out"
             )
         elif self.screw_offset is not None and self.screw_hole is None:
-            raise ValueError("screw_offset needs holes; set screw_hole = 6, or leave it out")
+            raise ValueError("screw_offset needs holes; set screw_hole = 5.5, or leave it out")
         elif self.keyed_phase and (self.dowel_diameter or self.dowel_circle):
             raise ValueError(
                 "dowel_diameter and dowel_circle are for gears without a key; leave them out, "

@@ -11,18 +11,21 @@ import numpy as np
 import pytest
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.fits import shaft_fit
 from mechwright.contracts.materials import material
 from mechwright.contracts.part import Instance, Part
-from mechwright.contracts.turned import tube
+from mechwright.contracts.turned import Step, Turned, tube
 from mechwright.geometry import Loop, Outline
 from mechwright.pipeline import Blank, Build, Wanted
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearing
 from mechwright.standards.dowels import dowel_for
 from mechwright.standards.screws import screw
+from mechwright.standards.supply import Supply
 from mechwright_cad.bill.items import numbers_of
 from mechwright_cad.bill.lines import ABSENT, COLUMNS, lines_of
-from mechwright_cad.bill.page import BillOfMaterials, bill_csv, bill_html
+from mechwright_cad.bill.page import BillOfMaterials, bars_of, bill_csv, bill_html
+from mechwright_cad.bill.stock import pieces
 from mechwright_cad.exporters import StepExporter
 from mechwright_cad.solid_models import masses
 
@@ -51,7 +54,15 @@ ORDER = ("spacer", "plate", "bearing", "dowel", "screw")
 
 @pytest.fixture(scope="module")
 def lines():
-    return lines_of(PARTS, masses(PARTS), (), {"spacer": ("spacer.dxf", "spacer.pdf")}, ORDER)
+    return lines_of(
+        PARTS,
+        masses(PARTS),
+        (),
+        {"spacer": ("spacer.dxf", "spacer.pdf")},
+        ORDER,
+        supplies=(Supply("oil", "machine oil", "on threads", 1, "as needed"),),
+        electrics=(Supply("fuse", "fuse 1 A", "in the line"),),
+    )
 
 
 def test_made_bought_stock_and_supplies_have_numbers_of_their_own(lines):
@@ -65,9 +76,49 @@ def test_made_bought_stock_and_supplies_have_numbers_of_their_own(lines):
         (201, 2, "stock for spacer"),
         (202, 1, "stock for plate"),
         (203, 1, "stock for other"),
-        (301, 1, "grease for plain bearings"),
+        (301, 1, "oil"),
+        (401, 1, "fuse"),
     ]
-    assert {line.kind for line in lines} == {"made", "bought", "stock", "supply"}
+    assert {line.kind for line in lines} == {"made", "bought", "stock", "supply", "electrical"}
+
+
+def test_each_line_says_how_it_is_ordered_and_what_it_is_of(lines):
+    by_name = {line.name: line for line in lines}
+    assert all(line.order for line in lines if line.kind != "made")
+    assert by_name["plate"].grade == "EN AW-6082 T651"
+    assert by_name["spacer"].grade == "CuZn39Pb3 (CW614N)"
+    assert by_name["screw"].grade == "class 8.8"
+    assert by_name["screw"].inch.startswith("ASME B18.3.1M")
+    assert by_name["stock for plate"].order == "EN AW-6082 T651, plate 8, sawn 62 x 42 mm"
+    assert by_name["stock for plate"].inch == "6061-T651, plate 3/8 in (9.525 mm), cut down to 8"
+    assert by_name["stock for spacer"].order == "CuZn39Pb3 (CW614N), drawn h9, round 14, sawn 12 mm"
+    assert by_name["oil"].note == "on threads"
+
+
+def test_what_nobody_sells_is_cut_from_the_next_size():
+    odd = Part("odd", PLATE, 13.5, "aluminium", (Instance("base"),))
+    stud = Part("stud", None, 0.0, "steel", (Instance("base"),), turned=Turned((Step(12.0, 20.0),)))
+    fitted = Part(
+        "fitted",
+        None,
+        0.0,
+        "steel",
+        (Instance("base"),),
+        turned=Turned((Step(12.0, 20.0, shaft_fit(12, "h6")),)),
+    )
+    plate, kept, cut = pieces((odd, stud, fitted), ())
+    assert plate.designation == "plate 62.0 x 42.0 x 15"
+    assert "face it to 13.5" in plate.note
+    assert plate.mass == pytest.approx(62 * 42 * 15 * 2.7e-3)
+    assert kept.designation == "round bar 12 x 26"
+    assert kept.note.endswith("the outside of 12 mm stays as drawn")
+    assert cut.designation == "round bar 14 x 26"
+
+
+def test_bars_are_added_up_with_their_saw_cuts(lines):
+    assert bars_of([line for line in lines if line.kind == "stock"]) == [
+        ("CuZn39Pb3 (CW614N), drawn h9, round 14", pytest.approx(2 * 0.015))
+    ]
 
 
 def test_equal_parts_share_an_item_and_mirror_images_do_not():
@@ -134,7 +185,15 @@ def test_the_table_is_read_back_as_it_was(lines):
     assert [row["designation"] for row in rows] == [line.designation for line in lines]
     assert [float(row["mass_g"]) for row in rows] == pytest.approx([line.mass_g for line in lines], abs=0.005)
     assert bill_csv(lines) == bill_csv(
-        lines_of(PARTS, masses(PARTS), (), {"spacer": ("spacer.dxf", "spacer.pdf")}, ORDER)
+        lines_of(
+            PARTS,
+            masses(PARTS),
+            (),
+            {"spacer": ("spacer.dxf", "spacer.pdf")},
+            ORDER,
+            supplies=(Supply("oil", "machine oil", "on threads", 1, "as needed"),),
+            electrics=(Supply("fuse", "fuse 1 A", "in the line"),),
+        )
     )
 
 

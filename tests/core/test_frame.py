@@ -38,12 +38,13 @@ from mechwright.machine.frame.decided import Wanted
 from mechwright.machine.frame.designing import frame_around
 from mechwright.machine.frame.findings import bent
 from mechwright.machine.frame.pillars import EDGE, PILLAR, SCREW, cap_screw, least_height, pillar, stud
-from mechwright.machine.frame.plates import STOCK, least_thickness, thickness_for
+from mechwright.machine.frame.plates import least_thickness, thickness_for
 from mechwright.machine.frame.seats import candidates, circlip_over, needed, seats
 from mechwright.machine.frame.shafts import PLAY, Levels, highest, key_of, lowest, ring_room, sections
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.standards.bearings import bearings
 from mechwright.standards.motors import motors
+from mechwright.standards.stock import plate_stock
 
 PLATES = MachineSettings(frame="plates")
 BORES = (5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0)
@@ -195,7 +196,7 @@ def test_the_plate_of_one_disc_is_the_smallest_square_about_it():
     assert area <= (70 + 2 * EDGE) ** 2 * 1.01
 
 
-@given(st.sampled_from([t for t in STOCK if 10 <= t <= 40]))
+@given(st.sampled_from([t for t in plate_stock("aluminium").thicknesses if 10 <= t <= 40]))
 def test_screws_reach_into_pillars_by_a_diameter_and_two_of_them_have_room(thickness):
     screw = cap_screw(thickness)
     deep = screw.length - thickness
@@ -346,7 +347,7 @@ def test_a_plate_that_is_too_thin_for_its_bearings_is_refused_with_the_size_that
     (fault,) = frame_around(keys, two(90.0), parts, motion, Wanted()).findings
     assert (fault.code, fault.value, fault.limit) == ("frame.plate-thickness", 9.0, 12.0)
     assert least_thickness([seat.bearing for seat in seats(two(90.0), keys)[0]]) <= thickness_for(
-        [seat.bearing for seat in seats(two(90.0), keys)[0]]
+        [seat.bearing for seat in seats(two(90.0), keys)[0]], "aluminium"
     )
 
 

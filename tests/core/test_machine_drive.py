@@ -66,7 +66,7 @@ def test_a_shaft_asks_for_j_i_di_omega_squared():
     np.testing.assert_allclose(drive.inertia, wanted, rtol=0, atol=1e-8 * np.abs(wanted).max())
     np.testing.assert_allclose(drive.reflected, inertia * ratio**2, rtol=1e-8)
     assert drive.swing == pytest.approx(inertia * OMEGA**2 * (1.5**2 - 0.5**2) / 2, rel=1e-5)
-    assert drive.flywheel(0.05) == pytest.approx(drive.swing / (0.05 * OMEGA**2))
+    assert drive.flywheel(0.025) == pytest.approx(drive.swing / (0.05 * OMEGA**2))
     peak, at, _ = drive.peak()
     fine = np.linspace(0, math.tau, 1_000_001)
     exact = inertia * (1 + 0.5 * np.cos(fine)) * -0.5 * np.sin(fine) * OMEGA**2

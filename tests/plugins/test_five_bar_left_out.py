@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from mechwright import GeometryError, Severity, Stage
 from mechwright.contracts.evaluation import Batch, one_by_one
+from mechwright.standards.stock import is_sold, plate_within
 from mechwright.testing.evaluation import assert_same
 from mechwright_five_bar.defaults.complete_parameters import CompleteParams
 from mechwright_five_bar.defaults.face_width import MOST_MODULES
@@ -76,9 +77,12 @@ def test_gears_are_as_wide_as_their_teeth_want(given):
     usual, found = CompleteParams(**given, gear_thickness=8), CompleteParams(**given)
     assert max(one.used for one in root_stresses(FiveBarTable.of(usual))) > 1
     assert 8 < found.gear_thickness <= MOST_MODULES * train_of(found).module
+    assert is_sold(found.gear_thickness, found.material)
     used = max(one.used for one in root_stresses(FiveBarTable.of(found)))
-    assert used <= 1 or found.gear_thickness == math.floor(2 * MOST_MODULES * train_of(found).module) / 2
-    assert used > 0.9
+    assert used <= 1 or found.gear_thickness == plate_within(
+        MOST_MODULES * train_of(found).module, found.material
+    )
+    assert used > 0.7, "the next thinner plate that is sold would not do"
     assert not errors_of(found)
     chosen = [one.message for one in FAMILY.check(found) if one.code == "five-bar.chosen"]
     assert chosen == [f"defaults chosen for this design: gear_thickness = {found.gear_thickness:g}"]

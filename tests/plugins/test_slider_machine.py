@@ -118,14 +118,14 @@ def test_the_ring_and_the_stepped_shaft_count_in_the_torque(changes):
 @pytest.mark.parametrize(
     ("machine", "parameters", "code", "fix"),
     [
-        ({}, {"screw_hole": 9.0}, "frame.ground-holes", {"parameters.screw_hole": 6}),
+        ({}, {"screw_hole": 9.0}, "frame.ground-holes", {"parameters.screw_hole": 5.5}),
         ({}, {"shaft": 4.5}, "frame.coupling", {"parameters.shaft": 5}),
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
         (
             {},
             {"crank": 60, "rod": 170, "offset": 0, "load": -5, "screw_offset": 20},
             "frame.ground-offset",
-            {"parameters.screw_offset": 45},
+            {"parameters.screw_offset": 44},
         ),
         ({}, {"load": -45.0}, "frame.coupling", {"machine.motor": "none"}),
     ],
@@ -139,7 +139,7 @@ def test_what_does_not_go_is_refused_with_a_change_that_was_tried(machine, param
 
 def test_a_base_for_legs_is_chosen_where_the_file_says_nothing():
     found = design({}, crank=25, rod=90, offset=0, screw_hole=None, shaft=None)
-    assert found.chosen == {"parameters.screw_hole": 6, "parameters.shaft": 5}
+    assert found.chosen == {"parameters.screw_hole": 5.5, "parameters.shaft": 5}
     assert errors(found.check()) == []
     assert found.changed({"machine.frame": "none", "machine.motor": "none"}).chosen == {}
 

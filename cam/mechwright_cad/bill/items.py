@@ -4,7 +4,7 @@ from collections.abc import Hashable, Sequence
 
 from mechwright.contracts.part import Part
 
-FIRST = {"made": 1, "bought": 101, "stock": 201, "supply": 301}
+FIRST = {"made": 1, "bought": 101, "stock": 201, "supply": 301, "electrical": 401}
 """Kind of a line to the number of its first item."""
 
 

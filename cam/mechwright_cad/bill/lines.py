@@ -7,7 +7,9 @@ made, bought
 stock
     Raw material cut to size for what is made, 201 and on. It becomes bodies and is none itself.
 supply
-    What is used up in fitting, 301 and on; no bodies either.
+    What is used up in fitting, and small parts that are not drawn, 301 and on; no bodies either.
+electrical
+    What the motor takes beside itself, 401 and on.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,13 +18,13 @@ from types import MappingProxyType
 
 from mechwright.contracts.part import Part
 from mechwright.pipeline import Blank
+from mechwright.standards.ordering import Order, order_of
+from mechwright.standards.supply import Supply
 from mechwright_cad.bill.items import FIRST, items
-from mechwright_cad.bill.stock import count, finished, pieces
+from mechwright_cad.bill.stock import count, finished, grade_of, pieces
 
 ABSENT = "not in the assembly that is shown"
 """Note of a part that is made and stands in no place: the other size of a link, a flat pattern."""
-
-GREASE = "grease for plain bearings"
 
 
 @dataclass(frozen=True)
@@ -37,9 +39,13 @@ class Line:
     designation: str = ""
     standard: str = ""
     material: str = ""
+    grade: str = ""
+    finish: str = ""
     stock: str = ""
     mass_each_g: float = 0.0
     mass_g: float = 0.0
+    order: str = ""
+    inch: str = ""
     file: str = ""
     drawing: str = ""
     note: str = ""
@@ -55,6 +61,8 @@ def lines_of(
     drawings: Mapping[str, Sequence[str]],
     order: Sequence[str] = (),
     notes: Mapping[str, str] = MappingProxyType({}),
+    supplies: Sequence[Supply] = (),
+    electrics: Sequence[Supply] = (),
 ) -> list[Line]:
     """The whole bill.
 
@@ -72,6 +80,8 @@ def lines_of(
         Names of parts in the order of assembly, in which items are counted.
     notes
         What there is to say of a part besides, by its name: the torque of a screw.
+    supplies, electrics
+        What is no body.
     """
     numbered = items(parts, order)
     numbers = {part.name: number for number, those in numbered.items() for part in those}
@@ -79,7 +89,8 @@ def lines_of(
     return [
         *(_body(number, those, masses, drawings, notes) for number, those in numbered.items()),
         *_stock(made, blanks, numbers),
-        *_supply(parts),
+        *(_no_body("supply", number, one) for number, one in enumerate(supplies, FIRST["supply"])),
+        *(_no_body("electrical", number, one) for number, one in enumerate(electrics, FIRST["electrical"])),
     ]
 
 
@@ -98,6 +109,7 @@ def _body(
     notes += dict.fromkeys(more[part.name] for part in those if part.name in more)
     if not all(part.instances for part in those):
         notes.append(ABSENT)
+    order = Order("") if bought is None else order_of(bought)
     return Line(
         number,
         qty,
@@ -107,9 +119,13 @@ def _body(
         "" if bought is None else bought.designation,
         "" if bought is None else bought.standard,
         first.material,
+        grade_of(first) if bought is None else order.grade,
+        order.finish,
         finished(first) if bought is None else "",
         masses[first.name],
         masses[first.name] * qty,
+        order.text,
+        order.inch,
         f"{first.name}.step",
         " ".join(name for part in those for name in drawings.get(part.name, ())) if bought is None else "",
         "; ".join(notes),
@@ -126,8 +142,12 @@ def _stock(parts: Sequence[Part], blanks: Sequence[Blank], numbers: Mapping[str,
             "stock",
             piece.designation,
             material=piece.material,
+            grade=piece.grade,
+            finish=piece.finish,
             mass_each_g=piece.mass,
             mass_g=piece.mass * piece.count,
+            order=piece.order,
+            inch=piece.inch,
             note=f"for item {_listed(numbers, piece.parts)}; {piece.note}",
         )
         for number, piece in enumerate(pieces(parts, blanks), FIRST["stock"])
@@ -138,7 +158,17 @@ def _listed(numbers: Mapping[str, int], names: Sequence[str]) -> str:
     return ", ".join(str(number) for number in dict.fromkeys(numbers[name] for name in names))
 
 
-def _supply(parts: Sequence[Part]) -> list[Line]:
-    runs = any(part.turned is not None or part.bought is not None for part in parts)
-    note = "on every pin, shaft and bush that turns; not on parts of POM"
-    return [Line(FIRST["supply"], 1, "as needed", GREASE, "supply", note=note)] if runs else []
+def _no_body(kind: str, number: int, one: Supply) -> Line:
+    """What is bought and is no body of the assembly."""
+    return Line(
+        number,
+        one.qty,
+        one.unit,
+        one.name,
+        kind,
+        one.designation,
+        one.standard,
+        order=one.order,
+        inch=one.inch,
+        note=one.note,
+    )

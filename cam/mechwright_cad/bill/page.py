@@ -1,8 +1,10 @@
 """The bill of materials as CSV, and as a page. Imports jinja2 and what reckons when the page is made."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mechwright.machine.made import electrics_for
 from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
 from mechwright.pipeline import Build, FileName, Page, RawStock, Wanted
@@ -13,6 +15,9 @@ if TYPE_CHECKING:
 
 STEM = "bill-of-materials"
 """Of both files."""
+
+BOND = "frame.bond"
+"""Codes of findings of hubs that are bonded begin so."""
 
 CSV, HTML = f"{STEM}.csv", f"{STEM}.html"
 
@@ -37,7 +42,9 @@ class BillOfMaterials(Page):
     def files(self, build: Build) -> dict[str, str]:
         """Both files; none for a mechanism without parts."""
         from mechwright_cad.assembly_order.plan import plan_of
+        from mechwright_cad.bill.items import numbers_of
         from mechwright_cad.bill.lines import lines_of
+        from mechwright_cad.bill.supplies import supplies_of
         from mechwright_cad.solid_models import Solids
 
         if not build.parts:
@@ -49,9 +56,22 @@ class BillOfMaterials(Page):
             if command in one.commands
             for blank in one.blanks(build)
         ]
-        torques = build.made(plan_of).torques
+        plan, order = build.made(plan_of), order_of(build)
         masses = build.made_as_wanted(Solids).masses()
-        lines = lines_of(build.parts, masses, blanks, drawings_of(build), order_of(build), torques)
+        bonded = any(said.code.startswith(BOND) for one in build.design.surroundings for said in one.findings)
+        supplies = supplies_of(
+            plan.bodies, plan.joints, numbers_of(build.parts, order), bonded=bonded, sample=plan.sample
+        )
+        lines = lines_of(
+            build.parts,
+            masses,
+            blanks,
+            drawings_of(build),
+            order,
+            plan.torques,
+            supplies,
+            build.made(electrics_for),
+        )
         return {CSV: bill_csv(lines), HTML: bill_html(build.design.name, lines)}
 
 
@@ -85,7 +105,8 @@ def bill_csv(lines: "list[Line]") -> str:
 def bill_html(design: str, lines: "list[Line]") -> str:
     """The same for people, with its sums."""
     kinds = {
-        kind: [line for line in lines if line.kind == kind] for kind in ("made", "bought", "stock", "supply")
+        kind: [line for line in lines if line.kind == kind]
+        for kind in ("made", "bought", "stock", "supply", "electrical")
     }
     bodies = [line for line in lines if line.kind in {"made", "bought"}]
     return (
@@ -98,5 +119,20 @@ def bill_html(design: str, lines: "list[Line]") -> str:
             count=sum(line.qty for line in bodies),
             mass=sum(line.mass_g for line in bodies),
             raw=sum(line.mass_g for line in kinds["stock"]),
+            bars=bars_of(kinds["stock"]),
         )
     )
+
+
+SAW = 3.0
+"""Width of a saw cut, mm."""
+
+
+def bars_of(lines: "Sequence[Line]") -> list[tuple[str, float]]:
+    """Round bars of each kind and the length of all pieces with their saw cuts, m."""
+    found: dict[str, float] = {}
+    for line in lines:
+        bar, _, sawn = line.order.partition(", sawn ")
+        if "round " in bar:
+            found[bar] = found.get(bar, 0.0) + line.qty * (float(sawn.split()[0]) + SAW) / 1000
+    return list(found.items())

@@ -1,4 +1,4 @@
-"""Raw stock of made parts: round bars, plates, and what they weigh."""
+"""Raw stock of made parts: plates and round bars as dealers have them, and what they weigh."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -6,10 +6,21 @@ from dataclasses import dataclass
 
 from mechwright.contracts.materials import material
 from mechwright.contracts.part import Part
+from mechwright.contracts.turned import Step, Turned
+from mechwright.errors import DesignError
 from mechwright.pipeline import Blank
+from mechwright.standards.stock import (
+    CLEAN_UP,
+    bar_for,
+    bar_stock,
+    inch_size,
+    is_sold,
+    plate_for,
+    plate_stock,
+)
 
-ACROSS, ALONG = 2.0, 3.0
-"""What a round bar has more than the part, mm, before both are rounded up: in diameter, and at each end."""
+ALONG = 3.0
+"""What a round bar is longer than the part at each end, mm."""
 
 AROUND = 11.0
 """What a plate has more all round, mm, where no process says: a cutter of 8 mm, and 3 mm that hold."""
@@ -20,12 +31,30 @@ BY_SHEET = "as the setup sheet has it"
 
 @dataclass(frozen=True)
 class Piece:
-    """A piece of stock to saw off; mass of one in g."""
+    """A piece of stock to saw off.
+
+    Parameters
+    ----------
+    parts, count
+        What is made of it, and how many pieces.
+    designation
+        Its form and size, mm.
+    grade, finish
+        Designation of the material, and the outside that it comes with.
+    order, inch
+        How it is ordered, and what is sold in the US.
+    mass
+        Of one, g.
+    """
 
     parts: tuple[str, ...]
     count: int
     material: str
     designation: str
+    grade: str
+    finish: str
+    order: str
+    inch: str
     mass: float
     note: str
 
@@ -40,17 +69,20 @@ def finished(part: Part) -> str:
     return f"plate {x1 - x0:.1f} x {y1 - y0:.1f} x {part.thickness:g}"
 
 
+def grade_of(part: Part) -> str:
+    """The designation of what a made part is made of; empty for one that is neither plate nor turned."""
+    if part.turned is not None:
+        return material(part.material).grades.bar
+    return material(part.material).grades.plate if part.outline is not None else ""
+
+
 def pieces(parts: Sequence[Part], blanks: Sequence[Blank]) -> Iterator[Piece]:
     """What is sawn off: plates as a process has them, then the rest of the parts in their order.
 
     A part that is neither turned nor a plate has no stock of its own: it may be printed or cast.
     """
     for blank in blanks:
-        x, y, z = blank.size
-        words = f"plate {x:.1f} x {y:.1f} x {z:g}"
-        yield Piece(
-            blank.parts, blank.count, blank.material, words, _grams(x * y * z, blank.material), BY_SHEET
-        )
+        yield _plate(blank.parts, blank.count, blank.material, blank.size, BY_SHEET)
     done = {name for blank in blanks for name in blank.parts}
     for part in parts:
         if part.name not in done:
@@ -66,16 +98,79 @@ def count(part: Part) -> int:
 
 def _piece(part: Part) -> Piece | None:
     if part.turned is not None:
-        across = math.ceil(round(part.turned.greatest + ACROSS, 3))
-        along = math.ceil(round(part.turned.length + 2 * ALONG, 3))
-        words, volume = f"round bar {across} x {along}", math.pi / 4 * across**2 * along
-    elif part.outline is not None:
-        x0, y0, x1, y1 = part.outline.bounds
-        x, y = x1 - x0 + 2 * AROUND, y1 - y0 + 2 * AROUND
-        words, volume = f"plate {x:.1f} x {y:.1f} x {part.thickness:g}", x * y * part.thickness
-    else:
+        return _bar(part, part.turned)
+    if part.outline is None:
         return None
-    return Piece((part.name,), count(part), part.material, words, _grams(volume, part.material), BY_RULE)
+    x0, y0, x1, y1 = part.outline.bounds
+    size = (x1 - x0 + 2 * AROUND, y1 - y0 + 2 * AROUND, part.thickness)
+    return _plate((part.name,), count(part), part.material, size, BY_RULE)
+
+
+def _plate(
+    names: tuple[str, ...], number: int, name: str, size: tuple[float, float, float], note: str
+) -> Piece:
+    """A piece of plate for parts of a thickness: of that one where it is sold, else of the next one."""
+    x, y, z = size
+    thick, facing = z, ""
+    if not is_sold(z, name):
+        try:
+            thick = plate_for(z, name)
+            facing = f"; face it to {z:g}: plates of {z:g} mm are not sold"
+        except DesignError as error:
+            facing = f"; {error}"
+    grades = material(name).grades
+    sawn = f"{math.ceil(x)} x {math.ceil(y)}"
+    inch = inch_size(plate_stock(name).inch, z)
+    return Piece(
+        names,
+        number,
+        name,
+        f"plate {x:.1f} x {y:.1f} x {thick:g}",
+        grades.plate,
+        "as rolled, sawn" if name not in _EXTRUDED else "as extruded, sawn",
+        f"{grades.plate}, plate {thick:g}, sawn {sawn} mm",
+        f"{grades.us_plate}, plate {_inches(inch.name, inch.size, z)}" if inch else "",
+        _grams(x * y * thick, name),
+        f"{note}{facing}",
+    )
+
+
+_EXTRUDED = frozenset({"pom", "polycarbonate"})
+"""Materials whose plates no mill has rolled."""
+
+
+def _bar(part: Part, turned: Turned) -> Piece:
+    """A piece of round bar; where the widest step of the part has no fit its outside stays as it is drawn."""
+    name, widest = part.material, turned.greatest
+    across = bar_for(widest, name, turned=not _as_bought(turned))
+    kept = across == widest
+    along = math.ceil(round(turned.length + 2 * ALONG, 3))
+    stock, grades = bar_stock(name), material(name).grades
+    drawn = f", drawn {stock.drawn}" if stock.drawn else ""
+    inch = inch_size(stock.inch, widest + CLEAN_UP)
+    return Piece(
+        (part.name,),
+        count(part),
+        name,
+        f"round bar {across:g} x {along}",
+        grades.bar,
+        f"drawn {stock.drawn}, sawn" if stock.drawn else "as extruded, sawn",
+        f"{grades.bar}{drawn}, round {across:g}, sawn {along} mm",
+        f"{grades.us_bar}, round {_inches(inch.name, inch.size, widest)}" if inch else "",
+        _grams(math.pi / 4 * across**2 * along, name),
+        f"{BY_RULE}; the outside of {widest:g} mm stays as drawn" if kept else BY_RULE,
+    )
+
+
+def _as_bought(turned: Turned) -> bool:
+    """Whether the widest steps have neither a fit nor a cone."""
+    widest: list[Step] = [one for one in turned.steps if max(one.foot, one.diameter) == turned.greatest]
+    return all(one.fit is None and one.start is None for one in widest)
+
+
+def _inches(name: str, size: float, wanted: float) -> str:
+    """A size by the inch, with what is taken off."""
+    return f"{name} in ({size:.4g} mm)" + ("" if abs(size - wanted) < 0.01 else f", cut down to {wanted:.4g}")
 
 
 def _grams(volume: float, name: str) -> float:

@@ -2,13 +2,11 @@
 
 from mechwright.contracts.finding import Change, Finding
 from mechwright.designs.design import Design
-from mechwright.remedies.keys import keys_of
+from mechwright.remedies.keys import thickness_keys
+from mechwright.standards.stock import AS_THICK
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.holding import Stock
 from mechwright_cam.shop.workshop_file import Shop
-
-AS_THICK = 0.005
-"""Plates that differ by less are as thick as each other, mm: 3/8 inch is written as 9.525 or 9.53."""
 
 
 def from_hand(job: Job, shop: Shop, design: Design) -> tuple[Stock | None, list[Finding]]:
@@ -46,11 +44,7 @@ def _no_thickness(job: Job, shop: Shop, design: Design) -> Finding:
     near = sorted(shop.thicknesses(material), key=lambda one: (abs(one - thickness), one))[:2]
     have = f"in hand are {' and '.join(f'{one:g}' for one in near)} mm" if near else "none of it is in hand"
     message = f"{job.part.name} takes a plate of {material} {thickness:g} mm thick; {have}"
-    keys = [
-        key.path
-        for key in keys_of(design).values()
-        if "thickness" in key.path and key.numeric and key.now(design.content) == thickness
-    ]
+    keys = thickness_keys(design, thickness)
     proposed: tuple[Change, ...] = tuple({key: one} for one in near for key in keys)
     remedy = f"add {thickness:g} to the thicknesses of {material} in {shop.path.name}"
     if near:

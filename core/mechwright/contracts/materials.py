@@ -24,6 +24,19 @@ from mechwright.errors import DesignError
 
 
 @dataclass(frozen=True, slots=True)
+class Grades:
+    """Designations by which a material is ordered: of plates and of round bars, and what is sold in the US.
+
+    They are those whose strength :class:`Material` and :mod:`mechwright.mechanics.strength.allowed` have.
+    """
+
+    plate: str
+    bar: str
+    us_plate: str
+    us_bar: str
+
+
+@dataclass(frozen=True, slots=True)
 class Material:
     """A workpiece material.
 
@@ -49,6 +62,8 @@ class Material:
         By which the specific force grows as the chip gets thinner (m).
     long_chips
         Whether chips of a drill do not break by themselves.
+    grades
+        What is ordered; handbook, unchecked.
     """
 
     name: str
@@ -61,6 +76,7 @@ class Material:
     force: float
     force_exponent: float
     long_chips: bool
+    grades: Grades
 
     @property
     def unbroken(self) -> float:
@@ -76,18 +92,22 @@ JAMS = 5.0
 HSS_SPEED = 1 / 3
 """Cutting speed of high-speed steel in that of carbide: what both may be heated to."""
 
+_GRADES = {
+    "aluminium": Grades("EN AW-6082 T651", "EN AW-6082 T6", "6061-T651", "6061-T6"),
+    "brass": Grades("CuZn39Pb3 (CW614N)", "CuZn39Pb3 (CW614N)", "C38500", "C36000"),
+    "steel": Grades("S355J2+N (1.0577)", "C45+C (1.0503)", "ASTM A572 grade 50", "1045 cold drawn"),
+    "pom": Grades("POM-C", "POM-C", "acetal copolymer", "acetal copolymer"),
+    "polycarbonate": Grades("PC, clear", "PC, clear", "polycarbonate, clear", "polycarbonate, clear"),
+}
+
 MATERIALS = {
-    material.name: material
-    for material in (
-        Material(
-            "aluminium", 2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25, long_chips=True
-        ),
-        Material("brass", 8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, long_chips=False),
-        Material("steel", 7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17, long_chips=True),
-        Material("pom", 1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20, long_chips=True),
-        Material(
-            "polycarbonate", 1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20, long_chips=True
-        ),
+    name: Material(name, *figures, long_chips=long_chips, grades=_GRADES[name])
+    for name, figures, long_chips in (
+        ("aluminium", (2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25), True),
+        ("brass", (8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18), False),
+        ("steel", (7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17), True),
+        ("pom", (1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20), True),
+        ("polycarbonate", (1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20), True),
     )
 }
 

@@ -19,10 +19,6 @@ from mechwright.contracts.finding import Change
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 
-SCREW_HOLE = 6.0
-"""Diameter, mm, of holes for the M5 screws of a frame, that is advised where a plate has none: usual mills
-make it."""
-
 
 class MountingError(DesignError):
     """A design cannot be held as it is: a key, what is wrong, and what to do, with changes to try."""

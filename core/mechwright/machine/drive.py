@@ -167,9 +167,12 @@ class Drive:
         speed = self.course.speed
         return bool(abs(speed[-1] - speed[0]) <= _SAME * self.speed)
 
-    def flywheel(self, irregularity: float) -> float | None:
-        """Inertia at the input, kg m², that keeps the speed within that share of its mean; None as swing."""
-        return None if self.swing is None else flywheel(self.swing, irregularity, self.mean_speed)
+    def flywheel(self, variation: float) -> float | None:
+        """Inertia at the input, kg m², that keeps the speed within that share of its mean, up or down.
+
+        None as :attr:`swing`.
+        """
+        return None if self.swing is None else flywheel(self.swing, 2 * variation, self.mean_speed)
 
 
 _NOTHING = 1e-6

@@ -55,7 +55,7 @@ def _reasons(drive: Drive, settings: MachineSettings) -> Iterator[tuple[str, str
     if settings.load == 0:
         yield "output", "it names the body that bears load, and load is 0"
     if drive.swing is None:
-        yield "irregularity", "the speed of this input does not come back, so there is no flywheel"
+        yield "speed_variation", "the speed of this input does not come back, so there is no flywheel"
 
 
 KEYS = "machine.key"
@@ -101,14 +101,14 @@ def _torque(drive: Drive, settings: MachineSettings) -> Iterator[Finding]:
         abs(peak),
         "N*m",
     )
-    wheel = drive.flywheel(settings.irregularity)
+    wheel = drive.flywheel(settings.variation)
     if wheel is not None and drive.swing is not None:
         disc = disc_of(wheel)
         yield Finding.note(
             "machine.flywheel",
             f"work swings by {1e3 * drive.swing:.4g} mJ about its mean; a flywheel of {wheel:.4g} kg·m^2 at "
             f"the input, such as a steel disc of {disc:.0f} x {disc * DISC:.0f} mm, keeps its speed within "
-            f"{100 * settings.irregularity:g} %",
+            f"{settings.speed_variation:g} %, up or down",
             wheel,
             "kg*m^2",
         )

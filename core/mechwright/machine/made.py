@@ -2,10 +2,12 @@
 
 from mechwright.contracts.motion import Motion
 from mechwright.machine.drive import SAMPLES, Drive, drive_of
+from mechwright.machine.electrics import electrics_of
 from mechwright.machine.motors import Choice, motor_of
 from mechwright.machine.settings import MachineSettings
 from mechwright.machine.table import MachineTable
 from mechwright.pipeline.build import Build
+from mechwright.standards.supply import Supply
 
 
 def settings_of(build: Build) -> MachineSettings:
@@ -27,6 +29,14 @@ def motion_for(build: Build) -> Motion:
 def drive_for(build: Build) -> Drive:
     """The drive of a build; raises as :func:`drive_of` does, and as parts do."""
     return drive_of(build.made(motion_for), build.parts, settings_of(build))
+
+
+def electrics_for(build: Build) -> list[Supply]:
+    """What its motor takes beside itself; nothing without a motor that is enough."""
+    choice = build.made(motor_for) if wanted_of(build) else None
+    if choice is None or not choice.enough:
+        return []
+    return electrics_of(build.made(drive_for), settings_of(build), choice)
 
 
 def motor_for(build: Build) -> Choice | None:

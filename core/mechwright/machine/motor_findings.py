@@ -7,7 +7,6 @@ from mechwright.contracts.finding import Change, Finding, Severity
 from mechwright.errors import MechwrightError
 from mechwright.machine.drive import Drive
 from mechwright.machine.motors import (
-    DEVIATION,
     SHARES,
     Choice,
     Motor,
@@ -119,19 +118,27 @@ def _speeds(build: Build, drive: Drive, settings: MachineSettings, choice: Choic
         if lighter is not None:
             words.append(f"load it by no more than {lighter:g} N·m")
             proposed.append({"machine.load": lighter})
-    if not words:
-        words.append("lessen the load or what swings")
-    off = f"; it is up to {100 * seen.deviation:.3g} % off the mean, the limit is {100 * DEVIATION:g} %"
-    yield Finding.warning(
+    if not seen.stalls and 100 * seen.deviation < MOST_VARIATION:
+        allowed = _above(100 * seen.deviation)
+        words.append(f"allow speed_variation = {allowed:g}")
+        proposed.append({"machine.speed_variation": allowed})
+    off = (
+        f"; it is up to {100 * seen.deviation:.3g} % off the mean, and speed_variation allows "
+        f"{settings.speed_variation:g} %"
+    )
+    yield Finding.error(
         "machine.speed",
         "machine.motor",
         speed_said(choice) + ("" if seen.stalls else off),
         None if seen.stalls else seen.deviation,
-        DEVIATION,
-        remedy=f"{', or '.join(words)}; a motor whose speed is controlled by an encoder keeps it as well, "
-        "but [machine] has no key for one",
+        settings.variation,
+        remedy=", or ".join(words) or "lessen the load or what swings",
         proposed=tuple(proposed),
     )
+
+
+MOST_VARIATION = 100.0
+"""%: as much as ``speed_variation`` may be."""
 
 
 def _fits(build: Build, settings: MachineSettings) -> Callable[[Motor], bool]:
@@ -223,6 +230,16 @@ def _speed(build: Build, drive: Drive, settings: MachineSettings) -> tuple[str, 
     if settings.speed is None and isinstance(own, float):
         return "parameters.speed", own
     return "machine.speed", settings.speed or drive.mean_speed * 60 / math.tau
+
+
+def _above(value: float) -> float:
+    """A number of two digits that is above.
+
+    >>> _above(12.34), _above(5.01)
+    (13.0, 5.1)
+    """
+    step = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return float(f"{(math.floor(value / step) + 1) * step:.2g}")
 
 
 def _below(value: float) -> float:

@@ -38,9 +38,6 @@ ENDLESS = 1e6
 STEPS = 200
 """Full steps of a turn of a stepper."""
 
-DEVIATION = 0.1
-"""Share of the requested speed by which that of the input may differ from it within the turn."""
-
 Motor = Stepper | GearMotor
 
 
@@ -65,6 +62,8 @@ class Choice:
         That a stepper's driver is fed with, V.
     speed
         Of the input with this motor; None where it is not enough, or not to turn at one speed.
+    variation
+        Share of the requested speed by which that of the input may differ from it within the turn.
     """
 
     motor: Motor
@@ -74,11 +73,12 @@ class Choice:
     resonant: bool = False
     voltage: float = 24.0
     speed: "InputSpeed | None" = None
+    variation: float = math.inf
 
     @property
     def even(self) -> bool:
         """Whether the input stays near the requested speed all along, as far as that can be said."""
-        return self.speed is None or not exceeds(self.speed.deviation, DEVIATION)
+        return self.speed is None or not exceeds(self.speed.deviation, self.variation)
 
     @property
     def enough(self) -> bool:
@@ -124,8 +124,8 @@ def with_speed(drive: Drive, settings: MachineSettings, choice: Choice) -> Choic
         return choice
     from mechwright.machine.speeds import input_speed
 
-    gear, efficiency = settings.gear, efficiency_of(settings)
-    return replace(choice, speed=input_speed(drive, choice.motor, gear, efficiency, settings.voltage))
+    seen = input_speed(drive, choice.motor, settings.gear, efficiency_of(settings), settings.voltage)
+    return replace(choice, speed=seen, variation=settings.variation)
 
 
 def judged(drive: Drive, settings: MachineSettings, one: Motor, slower: float = 1.0) -> Choice:
@@ -173,7 +173,7 @@ def curve_of(choice: Choice) -> tuple[Array, Array]:
     if isinstance(one, GearMotor):
         speeds = np.linspace(0.0, one.no_load, _POINTS)
         line = [dc_torque(one.no_load, one.stall_torque, float(speed)) for speed in speeds]
-        return speeds, np.minimum(line, PEAK * one.stall_torque)
+        return speeds, np.minimum(line, min(PEAK * one.stall_torque, one.peak))
     corner = corner_speed(choice.voltage, one.inductance / 1000, one.current)
     speeds = np.linspace(0.0, max(2 * corner, 1.2 * choice.demand.speed), _POINTS)
     return speeds, np.array([stepper_torque(one.hold, float(speed), corner) / MARGIN for speed in speeds])

@@ -2,19 +2,22 @@
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from mechwright.machine.drive import Drive
-from mechwright.machine.made import drive_for, motion_for, motor_for, settings_of, wanted_of
+from mechwright.machine.electrics import supply_of
+from mechwright.machine.made import drive_for, electrics_for, motion_for, motor_for, settings_of, wanted_of
 from mechwright.machine.motor_findings import speed_said
-from mechwright.machine.motors import DEVIATION, Choice, curve_of
+from mechwright.machine.motors import Choice, curve_of
 from mechwright.machine.plots import Line, key, plot, said
 from mechwright.machine.settings import MachineSettings
 from mechwright.pipeline.build import Build, Wanted
 from mechwright.pipeline.figures import Figure, Grid, figures_page
 from mechwright.pipeline.page import FileName, Page
+from mechwright.standards.motors import GearMotor
+from mechwright.standards.supply import Supply
 
 HTML, JSON = "drive.html", "drive.json"
 """The files."""
@@ -29,7 +32,7 @@ FIGURES: Mapping[str, tuple[str, str]] = {
     "greatest_inertia": ("greatest inertia that the input feels", "kg*m^2"),
     "least_inertia": ("least", "kg*m^2"),
     "work_swing": ("swing of the work about its mean", "J"),
-    "flywheel": ("inertia of a flywheel for the irregularity", "kg*m^2"),
+    "flywheel": ("inertia of a flywheel for the speed variation", "kg*m^2"),
     "motor_peak": ("peak torque at the motor, with the margin", "N*m"),
     "motor_rms": ("rms torque at the motor, with the margin", "N*m"),
     "motor_speed": ("greatest speed of the motor", "rev/min"),
@@ -38,6 +41,9 @@ FIGURES: Mapping[str, tuple[str, str]] = {
     "mean_driven_speed": ("mean over time", "rev/min"),
     "greatest_driven_speed": ("greatest", "rev/min"),
     "motor_voltage": ("voltage of the motor, or of its driver, there", "V"),
+    "supply_voltage": ("voltage of the power supply", "V"),
+    "supply_current": ("its current at least", "A"),
+    "current_limit": ("current limit of the driver, for the gearbox", "A"),
     "inertia_ratio": ("inertia that its rotor feels, over its own", ""),
 }
 """Name in ``drive.json`` to words and unit."""
@@ -67,7 +73,7 @@ class DrivePage(Page):
             f"{build.design.family.title}: drive",
             _notes(settings, choice),
             _figures(build.made(motion_for).input_name, drive, choice),
-            [_table(values)],
+            [_table(values), *_to_buy(build.made(electrics_for))],
         )
         return {HTML: html, JSON: json.dumps({**motor, "figures": numbers}, indent=2) + "\n"}
 
@@ -86,7 +92,7 @@ def figures_of(drive: Drive, settings: MachineSettings, choice: Choice | None) -
         "greatest_inertia": float(drive.reflected.max()),
         "least_inertia": float(drive.reflected.min()),
         "work_swing": drive.swing,
-        "flywheel": drive.flywheel(settings.irregularity),
+        "flywheel": drive.flywheel(settings.variation),
     }
     if choice is not None:
         found |= {
@@ -95,6 +101,7 @@ def figures_of(drive: Drive, settings: MachineSettings, choice: Choice | None) -
             "motor_speed": choice.demand.speed,
             "motor_cover": choice.cover,
             **_speeds(choice),
+            **_supply(choice),
             "inertia_ratio": choice.ratio,
         }
     return {
@@ -115,6 +122,20 @@ def _speeds(choice: Choice) -> dict[str, float | None]:
         "greatest_driven_speed": most,
         "motor_voltage": seen.voltage,
     }
+
+
+def _supply(choice: Choice) -> dict[str, float | None]:
+    """What feeds the motor; nothing for one that is not enough."""
+    if not choice.enough:
+        return {}
+    volts, least = supply_of(choice)
+    limit = choice.motor.current_limit if isinstance(choice.motor, GearMotor) else None
+    return {"supply_voltage": volts, "supply_current": least, "current_limit": limit}
+
+
+def _to_buy(supplies: Sequence[Supply]) -> list[Grid]:
+    rows = [[one.name, one.order, one.note] for one in supplies]
+    return [Grid("To buy for the motor", ["", "order as", "why"], rows)] if rows else []
 
 
 _NOTHING = 1e-8
@@ -190,7 +211,7 @@ def _speed(name: str, choice: Choice) -> list[Figure]:
     words = (
         f"At a constant {seen.voltage:.3g} V the motor drives and brakes along its line. Inertia of the "
         "mechanism evens the speed out; that of the motor's own rotor is not counted. "
-        f"{key(lines).capitalize()}; more than {100 * DEVIATION:g} % off is a warning."
+        f"{key(lines).capitalize()}; more than {100 * choice.variation:g} % off is refused."
     )
     return [Figure("Speed of the input", plot(lines, f"{name}, deg", "rev/min"), words)]
 

@@ -1,6 +1,7 @@
 """The keys of ``[machine]``."""
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -25,6 +26,10 @@ MotorName = Annotated[str, Field(max_length=40), AfterValidator(_designation)]
 class MachineSettings(FrameKeys):
     """The table ``[machine]``; as long as it says nothing, nothing is found and no page written."""
 
+    also: ClassVar[Mapping[str, str]] = {
+        "irregularity": "it is speed_variation, in %, up or down: 0.05 of it is speed_variation = 2.5"
+    }
+
     speed: Annotated[RevPerMin, Field(ge=0.001, le=20000)] | None = Field(
         None,
         description="Mean speed of the input, of a lever its swings there and back. Default: as the "
@@ -44,8 +49,10 @@ class MachineSettings(FrameKeys):
     up: Literal["none", "x", "-x", "y", "-y", "z", "-z"] = Field(
         "none", description="Direction of the mechanism that points up; none leaves weights out."
     )
-    irregularity: Annotated[float, Field(gt=0, le=1), Unit("")] = Field(
-        0.05, description="Share of its mean by which the speed may swing, for the flywheel."
+    speed_variation: Annotated[float, Field(gt=0, le=100), Unit("%")] = Field(
+        5.0,
+        description="Greatest difference of the input's speed from the requested one within the turn, in % "
+        "of it, up or down. Default: 5. A motor that exceeds it is refused; the flywheel keeps it.",
     )
     motor: MotorName = Field(
         "none", description='"auto" for the lightest that is enough, a designation, or none.'
@@ -59,6 +66,11 @@ class MachineSettings(FrameKeys):
     margin: Annotated[float, Field(ge=1, le=10), Unit("")] = Field(
         1.5, description="Factor on all torques before a motor is judged, for friction and starting."
     )
+
+    @property
+    def variation(self) -> float:
+        """``speed_variation`` as a share of the requested speed."""
+        return self.speed_variation / 100
 
     @property
     def couples(self) -> bool:

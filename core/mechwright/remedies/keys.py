@@ -201,3 +201,12 @@ def _bound(facts: Mapping[str, Any], closed: str, none: float) -> float:
         return none
     step = 1.0 if facts.get("type") == "integer" else max(abs(left_out), 1.0) * 1e-3
     return float(left_out) + math.copysign(step, -none)
+
+
+def thickness_keys(design: Design, thickness: float) -> list[str]:
+    """Paths of the keys that give a thickness of this value, mm."""
+    return [
+        key.path
+        for key in keys_of(design).values()
+        if "thickness" in key.path and key.numeric and key.now(design.content) == thickness
+    ]

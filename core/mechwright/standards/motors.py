@@ -13,6 +13,10 @@ from mechwright.standards.table import table
 
 NOMINAL_VOLTAGE = 12.0
 """At which the gear motors of the table have their speeds and torques, V."""
+IDLE_CURRENT, STALL_CURRENT = 0.2, 5.5
+"""Of the gear motors at that voltage without load and at standstill, A: a maker's sheet, for all ratios."""
+GEARBOX_CONTINUOUS, GEARBOX_PEAK = 100.0, 250.0
+"""Torques that their gearbox bears, kg mm: for long, a maker's advice; for a moment, a handbook figure."""
 DIE_CAST = 110.0
 """At which a thread strips in the die-cast face of a motor or gearbox, MPa; handbook, unchecked."""
 
@@ -114,6 +118,30 @@ class GearMotor:
     def stall_torque(self) -> float:
         """N m."""
         return self.stall * KG_MM
+
+    @property
+    def continuous(self) -> float:
+        """Torque that its gearbox bears for long, N m."""
+        return GEARBOX_CONTINUOUS * KG_MM
+
+    @property
+    def peak(self) -> float:
+        """Torque that its gearbox bears for a moment, N m."""
+        return GEARBOX_PEAK * KG_MM
+
+    def current(self, torque: float) -> float:
+        """That it draws at a torque, A: on the line from no load to stall.
+
+        >>> one = motor("37D 131:1")
+        >>> one.current(0.0), one.current(one.stall_torque), round(one.current(one.peak), 3)
+        (0.2, 5.5, 3.144)
+        """
+        return IDLE_CURRENT + (STALL_CURRENT - IDLE_CURRENT) * abs(torque) / self.stall_torque
+
+    @property
+    def current_limit(self) -> float | None:
+        """A driver's limit with which the motor cannot break its gearbox, A; None if it cannot anyway."""
+        return self.current(self.peak) if self.stall_torque > self.peak else None
 
     @property
     def face(self) -> MotorFace:

@@ -1,5 +1,6 @@
 """Screws, washers, and the holes for them: ISO 4762, 10642, 4026, 7089, 273, DIN 974-1, ISO 2306."""
 
+import math
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -23,7 +24,7 @@ GRADE = "8.8"
 SET_GRADE = "45H"
 """Hardness class of set screws."""
 
-ENGAGEMENT = {"steel": 1.0, "brass": 1.2, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+ENGAGEMENT = {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
 """Least length of thread in a material, in diameters; handbook, unchecked. In POM an insert is better."""
 
 
@@ -131,6 +132,36 @@ class Washer:
         return Bought(
             f"ISO 7089 - {self.of.size:g} - 200 HV", "ISO 7089", None, Shape((ring(inside, outside, height),))
         )
+
+
+SOFT = frozenset({"pom", "polycarbonate"})
+"""Materials that creep under a head."""
+
+
+def needs_washer(size: float, hole: float, material: str) -> bool:
+    """Whether the head of a screw M ``size`` lies on a washer: over a coarse hole, mm, and on plastics.
+
+    >>> needs_washer(5, 5.5, "aluminium"), needs_washer(5, 6.0, "aluminium"), needs_washer(5, 5.5, "pom")
+    (False, True, True)
+    """
+    return material in SOFT or hole >= screw_size(size).clearance("coarse")
+
+
+FRAME = 5.0
+"""Thread of a frame's screws, mm."""
+
+DEEP = 12.0
+"""Through thicker plates, mm, mills of the size of a clearance hole do not reach: a wider one is drilled."""
+
+
+def through_hole(size: float, thickness: float) -> float:
+    """Diameter of a screw's hole through a plate, mm: the medium one, or the next whole one for a drill.
+
+    >>> through_hole(5, 8), through_hole(5, 20)
+    (5.5, 6.0)
+    """
+    clear = screw_size(size).clearance()
+    return clear if thickness <= DEEP else float(math.ceil(clear))
 
 
 @cache

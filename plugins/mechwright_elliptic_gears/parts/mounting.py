@@ -3,8 +3,8 @@
 import math
 
 from mechwright import GroundPlate, Mounting, MountingError
-from mechwright.contracts.mounting import SCREW_HOLE
 from mechwright.mechanics.gearing.pair_parts import pair_mounting
+from mechwright.standards.screws import FRAME, through_hole
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.gear import ellipse_of
 from mechwright_elliptic_gears.parts.layout import OUTWARDS, layout_of, screw_offset_of, screw_places
@@ -29,10 +29,11 @@ def mounting_of(params: EllipticGearParams) -> Mounting | GroundPlate:
 def _base_of(params: EllipticGearParams) -> GroundPlate:
     """The coupler of a train passes over all shafts, so they stand in one plate and are driven from below."""
     if params.screw_hole is None:
+        hole = through_hole(FRAME, layout_of(params).base)
         raise MountingError(
             "parameters.screw_hole: the base plate of a train is fixed by screws under its gears, and a "
-            f"frame asks for holes in its corners; set screw_hole = {SCREW_HOLE:g}",
-            ({"parameters.screw_hole": SCREW_HOLE},),
+            f"frame asks for holes in its corners; set screw_hole = {hole:g}",
+            ({"parameters.screw_hole": hole},),
         )
     layout = layout_of(params)
     keep = keep_of(params, layout)

@@ -1,10 +1,9 @@
 """Width of the gears where a design leaves it out: it follows from what their teeth carry."""
 
-import math
-
 from mechwright import MechwrightError
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.strength.allowed import REVERSING_ROOT
+from mechwright.standards.stock import plate_for, plate_within
 from mechwright_five_bar.defaults.limits import USUAL_FACE
 from mechwright_five_bar.parameters import FiveBarParams
 from mechwright_five_bar.rules.motion import RUNS
@@ -18,15 +17,12 @@ MOST_MODULES = 12.0
 SPARE = 1.02
 """Of the width: wider gears are heavier, and their inertia adds to the load."""
 
-STEPS = 2
-"""Of a millimetre: the width is rounded to halves."""
-
 
 def face_of(params: FiveBarParams) -> float:
     """The usual face width, mm, or as much as teeth want that shall last.
 
-    At most it is :data:`MOST_MODULES`. Where teeth break even so, and where something else speaks against the
-    parts, it is the usual one.
+    It is that of a plate that is sold, at most :data:`MOST_MODULES`. Where teeth break even so, and where
+    something else speaks against the parts, it is the usual one.
     """
     usual = params.model_copy()
     usual.__dict__.update({"gear_thickness": USUAL_FACE, "phase": 1})  # it still counts as left out
@@ -43,8 +39,7 @@ def face_of(params: FiveBarParams) -> float:
     if used <= 1:
         return USUAL_FACE
     # A tooth's stress is to its width as one to it, and its load hardly changes with it.
-    wanted = math.ceil(STEPS * SPARE * USUAL_FACE * used) / STEPS
-    most = max(USUAL_FACE, math.floor(STEPS * MOST_MODULES * module) / STEPS)
-    width = min(wanted, most)
+    most = max(USUAL_FACE, plate_within(MOST_MODULES * module, params.material) or 0.0)
+    width = plate_for(min(SPARE * USUAL_FACE * used, most), params.material)
     breaks = max(one.value / one.breaks for one in stresses if one.breaks is not None)
     return width if SPARE * USUAL_FACE * breaks <= width else USUAL_FACE

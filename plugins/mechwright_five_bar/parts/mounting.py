@@ -1,7 +1,7 @@
 """The ground plate over its gears, from which a base, legs and a motor can follow."""
 
 from mechwright import GroundPlate, MountingError
-from mechwright.contracts.mounting import SCREW_HOLE
+from mechwright.standards.screws import FRAME, through_hole
 from mechwright_five_bar.parts.hub import Hub, hub_of
 from mechwright_five_bar.parts.parts import spans_of
 from mechwright_five_bar.table import FiveBarTable
@@ -14,10 +14,11 @@ def mounting_of(m: FiveBarTable) -> GroundPlate:
     """The ground plate and the crank's shaft; raises MountingError where it stands on posts of its own."""
     params = m.params
     if params.screw_hole is None:
+        hole = through_hole(FRAME, params.ground_thickness)
         raise MountingError(
             "parameters.screw_hole: the ground plate stands on posts that are pressed into it, where the "
-            f"pillars of a frame would be; set screw_hole = {SCREW_HOLE:g}",
-            ({"parameters.screw_hole": SCREW_HOLE},),
+            f"pillars of a frame would be; set screw_hole = {hole:g}",
+            ({"parameters.screw_hole": hole},),
         )
     layout, hub = m.layout, hub_of(params)
     low = layout.heights["ground"]

@@ -79,7 +79,7 @@ def completed(given: GenevaParams, size: int | None = None) -> Sizes:
     leave("least_wall", wall_of(wheel))
     leave("load_inertia", load_of(wheel))
     leave("pin_diameter", _largest_pin(PIN * np.asarray(values["roller_radius"])))
-    leave("crank_thickness", crank_of(np.asarray(values["pin_diameter"])))
+    leave("crank_thickness", crank_of(np.asarray(values["pin_diameter"]), values["material"]))
     frame = frame_of(Sizes.model_construct(**values))
     leave("centre_distance", frame.axes)
     for name, value in (_driver(values, frame) | _wheel(values, frame)).items():

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.contracts.design_table import number
+from mechwright.standards.stock import AS_THICK, plate_stock
 
 ANGLES = {
     3: (35.0, 5.0),
@@ -88,9 +89,16 @@ def dowel_of(entry_radius: Any) -> Any:
     return number(np.clip(_DOWEL_SHARE * entry_radius, *_DOWELS))
 
 
-def crank_of(pin: Any) -> Any:
-    """Thicknesses of crank plates for pins, which are mostly drilled."""
-    return number(np.where(pin < _FINE, np.minimum(CRANK, _DEEP * pin), CRANK))
+def crank_of(pin: Any, material: str) -> Any:
+    """Thicknesses of crank plates for pins, which are mostly drilled: of fine ones the plate that is sold.
+
+    >>> crank_of(np.array([3.0, 1.2, 0.25]), "steel").tolist()
+    [8.0, 4.0, 0.875]
+    """
+    sizes = np.array(plate_stock(material).thicknesses, dtype=float)
+    deep = np.where(pin < _FINE, np.minimum(CRANK, _DEEP * pin), CRANK)
+    below = np.searchsorted(sizes, deep + AS_THICK)
+    return number(np.where(below > 0, sizes[np.maximum(below - 1, 0)], deep))
 
 
 def floor_of(thickness: Any) -> Any:

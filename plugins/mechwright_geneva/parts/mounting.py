@@ -9,6 +9,7 @@ from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.kinematics.motion import DRIVER, WHEEL, motion_of
 from mechwright_geneva.parameters import GenevaParams
+from mechwright_geneva.parts.disc_plate import disc_thickness
 from mechwright_geneva.parts.parts import driver_keyway_angle, keyway_angle
 
 SAMPLES = 721
@@ -28,7 +29,7 @@ def mounting_of(params: GenevaParams) -> Mounting:
     force, wheel_torque = shares(m)
     top = sizes.thickness + sizes.axial_gap + sizes.crank_thickness
     driver = Hub(
-        0.0,
+        sizes.thickness + sizes.axial_gap - disc_thickness(sizes.thickness, sizes.axial_gap, sizes.material),
         top,
         sizes.driver_bore,
         sizes.driver_keyway_width,

@@ -39,6 +39,7 @@ from mechwright_geneva.kinematics.motion import DRIVER, WHEEL, island_body, roll
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.parts.counterbore import counterbore
 from mechwright_geneva.parts.crank_outline import crank_loop, pin_bore, pin_fit, pins, stud_diameter
+from mechwright_geneva.parts.disc_plate import disc_thickness
 from mechwright_geneva.parts.dowels import driver_dowels, hub_dowels, island_places, web_place
 from mechwright_geneva.parts.locking_disc import lock_loop
 from mechwright_geneva.parts.openings import driver_opening, wheel_opening
@@ -194,7 +195,10 @@ def _driver(m: Mechanism) -> list[Part]:
     top = params.thickness + params.axial_gap
     # A relief leaves the disc's radius so gently that its ends still lock: tabs stand where it is deep.
     deep = m.lock - _RELIEVED * (m.lock - m.driver_radius)
-    disc = _plate(m, "locking-disc", loop, deviation, opening, dowels, top, DRIVER, 0, STEEL, within=deep)
+    thick = disc_thickness(params.thickness, params.axial_gap, params.material)
+    disc = _plate(
+        m, "locking-disc", loop, deviation, opening, dowels, thick, DRIVER, top - thick, STEEL, within=deep
+    )
     fit, thickness = pin_fit(m, params.pin_diameter), params.crank_thickness
     bores = [
         Bore(f"pin-{k}", (pin.real, pin.imag), pin_bore(m), 0, thickness, fit)

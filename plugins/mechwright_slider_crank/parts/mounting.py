@@ -1,7 +1,7 @@
 """What a frame is told of the base and of the shaft's end below it."""
 
 from mechwright import GroundPlate, MountingError
-from mechwright.contracts.mounting import SCREW_HOLE
+from mechwright.standards.screws import FRAME, through_hole
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
 from mechwright_slider_crank.parts.base import shaft_end
 from mechwright_slider_crank.parts.plates import layout_of
@@ -11,9 +11,10 @@ def mounting_of(table: Mechanism) -> GroundPlate:
     """The base and the crank's shaft; raises DesignError where the base has no holes for legs."""
     layout, hole = layout_of(table), table.given.screw_hole
     if hole is None:
+        hole = through_hole(FRAME, table.given.thickness)
         raise MountingError(
-            f"parameters.screw_hole: the base has no holes for the screws of legs; make it {SCREW_HOLE:g}",
-            ({"parameters.screw_hole": SCREW_HOLE},),
+            f"parameters.screw_hole: the base has no holes for the screws of legs; make it {hole:g}",
+            ({"parameters.screw_hole": hole},),
         )
     low, end = layout.stack.bottom("base"), shaft_end(table)
     one, two, three, four = ((at.real, at.imag) for at in layout.screws)

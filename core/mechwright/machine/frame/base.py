@@ -4,26 +4,31 @@ import math
 from collections.abc import Sequence
 
 from mechwright.contracts.bought import BlindThread, Bought
+from mechwright.contracts.materials import material
 from mechwright.contracts.shape import Shape, ring
 from mechwright.contracts.surroundings import Place
 from mechwright.contracts.turned import EndThread, Length, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
-from mechwright.machine.frame.fixing import fixing, put_fixing
+from mechwright.machine.frame.fixing import Fixing, fixing, put_fixing
 from mechwright.machine.frame.kit import Kit
-from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column, put_screw
-from mechwright.machine.frame.plates import Hole, add_plate, stock_for
+from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column
+from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Standing
 from mechwright.mechanics.strength.allowed import allowed
 from mechwright.mechanics.strength.tightening import bond_torque
-from mechwright.standards.screws import Screw, screw
+from mechwright.standards.screws import needs_washer, screw, through_hole, washer
+from mechwright.standards.stock import plate_stock
 
 MARGIN = 16.0
 """By how much the base plate is larger than the bearing plates on every side, mm: it stands wider."""
 
-LEAST, MOST, SLENDER = 10.0, 25.0, 15.0
-"""Thickness of the base plate, mm, at least and at most, and its longer side in thicknesses between them.
-With a foot beside every leg it carries little but itself."""
+LEAST = 8.0
+"""Thickness of the base plate at least, mm: room for the chamfers of its holes, and stiff in the hand."""
+
+HAND, WEIGHT, SAG = 100.0, 1e-3, 1 / 2000
+"""What the base plate carries in its middle: a hand, N, and the machine, N on each mm², which is 100 kg on a
+square metre; and by which share of its length it may give way."""
 
 UNDER = 10.0
 """Between the motor and the base plate, mm: its cable, and air."""
@@ -33,9 +38,6 @@ FOOT = (20.0, 15.0, 6.0)
 
 LEG = 0.05
 """Limit deviations of the height of a leg, plus and minus, mm."""
-
-HOLE = 6.0
-"""Of the base plate's screws, mm: a drill, for mills of the clearance's size do not reach through."""
 
 RUBBER = 1.2e-3
 """Density, g/mm³; handbook."""
@@ -57,48 +59,86 @@ def foot() -> Bought:
     )
 
 
-def add_foot(kit: Kit, name: str, point: Point, top: float, thickness: float) -> None:
+def washers_for(size: float, thickness: float, material: str) -> int:
+    """How many washers lie under the head of a screw on the base plate."""
+    return int(needs_washer(size, through_hole(size, thickness), material))
+
+
+def foot_fixing(thickness: float, material: str) -> Fixing:
+    """The screw from above the base plate into a foot; raises DesignError where none that is sold fits."""
+    (thread,) = foot().threads
+    washers = washers_for(thread.diameter, thickness, material)
+    return fixing(thread.diameter, thickness, thread.depth, washers=washers)
+
+
+def add_foot(kit: Kit, name: str, point: Point, top: float, thickness: float, material: str) -> None:
     """A foot under a plate whose upper face is at ``top``, mm, and the screw that goes down into it.
 
     Raises DesignError where no screw that is sold goes deep enough into the foot, and not too deep.
     """
-    (thread,) = foot().threads
     kit.places[name] = Place((*point, 0.0))
     try:
-        found = fixing(thread.diameter, thickness, thread.depth)
+        found = foot_fixing(thickness, material)
     except DesignError as error:
         raise DesignError(f"machine.plates: {error}; leave it out") from error
     put_fixing(kit, found, name, top)
     kit.bought("foot", foot(), name, top - thickness - FOOT[1])
 
 
-def base_stock(wanted: float, in_hand: Sequence[float] = ()) -> float:
+def least_thickness(size: Point, name: str) -> float:
+    """Of a base plate of a width and a height, mm, as a beam between its shorter sides.
+
+    With load F, length L and width b its thickness t follows from F L³/(4 E b t³) = :data:`SAG` L and from
+    3 F L/(2 b t²), at most what the material bears for long.
+
+    >>> [round(least_thickness((332.0, 192.0), one), 1) for one in ("steel", "aluminium", "pom")]
+    [8.0, 8.8, 25.6]
+    """
+    width, length = sorted(size)
+    load = HAND + WEIGHT * width * length
+    stiff = math.cbrt(load * length**2 / (4 * material(name).modulus * width * SAG))
+    strong = math.sqrt(3 * load * length / (2 * width * allowed(name).endurance))
+    return max(LEAST, stiff, strong)
+
+
+def base_stock(wanted: float, material: str, in_hand: Sequence[float] = ()) -> float:
     """The least plate that is at least so thick, mm, and whose feet have a screw that is sold.
 
-    >>> base_stock(12, (16.6,)), base_stock(12, (16.6, 19))
+    Raises DesignError where none is so thick.
+
+    >>> base_stock(12, "aluminium", (16.6,)), base_stock(12, "aluminium", (16.6, 19))
     (12.0, 19.0)
     """
-    return stock_for(wanted, [one for one in in_hand if _has_foot_screw(one)])
+    for sizes in (in_hand, plate_stock(material).thicknesses):
+        fitting = [one for one in sizes if one >= wanted and _has_foot_screw(one, material)]
+        if fitting:
+            return float(min(fitting))
+    raise DesignError(
+        f"machine.plate_material: no base plate of {material} is sold {wanted:.1f} mm thick or thicker; "
+        'set plate_material = "aluminium"'
+    )
 
 
-def _has_foot_screw(thickness: float) -> bool:
-    (thread,) = foot().threads
+def _has_foot_screw(thickness: float, material: str) -> bool:
     try:
-        fixing(thread.diameter, thickness, thread.depth)
+        foot_fixing(thickness, material)
     except DesignError:
         return False
     return True
 
 
-def thickness_for(standing: Standing, in_hand: Sequence[float] = ()) -> float:
+def thickness_for(standing: Standing, material: str, in_hand: Sequence[float] = ()) -> float:
     """Of the base plate, mm; of the plates in hand, if there are any."""
-    longer = standing.longer + 2 * (EDGE + MARGIN)
-    return base_stock(min(max(LEAST, longer / SLENDER), MOST), in_hand)
+    wide, high = (one + 2 * (EDGE + MARGIN) for one in standing.size)
+    return base_stock(least_thickness((wide, high), material), material, in_hand)
 
 
-def leg_screw(thickness: float) -> Screw:
-    """From below the base plate into a leg."""
-    return screw(SCREW, thickness + SCREW)
+def leg_fixing(thickness: float, material: str) -> tuple[Fixing, float]:
+    """The screw from below the base plate into a leg, and how deep it goes into that, mm."""
+    washers = washers_for(SCREW, thickness, material)
+    grip = thickness + (washer(SCREW).height if washers else 0.0)
+    found = screw(SCREW, grip + SCREW)
+    return Fixing(found, washers), found.length - grip
 
 
 def add_base(
@@ -122,29 +162,29 @@ def add_base(
     in_hand
         Thicknesses of plate, mm.
     """
-    thickness = thickness_for(standing, in_hand)
+    thickness = thickness_for(standing, material, in_hand)
     low = top - thickness
-    fixing = leg_screw(thickness)
+    found, engaged = leg_fixing(thickness, material)
     leg = Turned(
         (Step(PILLAR, under - top),),
         note=NOTE.replace("pillars", "legs"),
         lengths=(Length("height of the legs", 0.0, under - top, -LEG, LEG),),
         threads=(
-            EndThread("lower", SCREW, PITCH, fixing.length - thickness + SPARE),
+            EndThread("lower", SCREW, PITCH, engaged + SPARE),
             EndThread("upper", SCREW, PITCH, depth + SPARE),
         ),
     )
-    holes = []
+    holes, clear = [], through_hole(SCREW, thickness)
     for k, column in enumerate(columns, start=1):
-        holes.append(Hole.through(f"leg-{k}", column.point, HOLE, thickness))
+        holes.append(Hole.through(f"leg-{k}", column.point, clear, thickness))
         kit.turned("leg", leg, column.name, top)
-        put_screw(kit, fixing, f"{column.name}-below", -low)
+        put_fixing(kit, found, f"{column.name}-below", -low)
     edge = EDGE + MARGIN
     inset = edge - FOOT[0] / 2 - 2.0
     signs = ((-1, -1), (1, -1), (1, 1), (-1, 1))
     for k, ((x, y), (a, b)) in enumerate(zip(standing.corners, signs, strict=True), start=1):
         point = (x + a * inset, y + b * inset)
-        holes.append(Hole.through(f"foot-{k}", point, HOLE, thickness))
-        add_foot(kit, f"foot-{k}", point, top, thickness)
+        holes.append(Hole.through(f"foot-{k}", point, clear, thickness))
+        add_foot(kit, f"foot-{k}", point, top, thickness, material)
     kit.places["base-carrier"] = Place()
     add_plate(kit, "base-plate", standing, edge, thickness, material, holes, "base-carrier", low)

@@ -37,7 +37,6 @@ from mechwright.machine.frame.plates import (
     add_plate,
     bearing_hole,
     least_thickness,
-    stock_for,
     thickness_for,
 )
 from mechwright.machine.frame.play import coupling_stack, shaft_stacks
@@ -46,6 +45,7 @@ from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
 from mechwright.standards.couplings import BORES, OverloadError
+from mechwright.standards.stock import plate_for
 
 STUB = 2.0
 """Length of the shaft for a drive of one's own below the frame, in its diameters."""
@@ -84,9 +84,9 @@ def decided(
     if faults:
         return faults
     bearings = [seat.bearing for seat in chosen]
-    thickness = keys.plate_thickness or thickness_for(bearings, keys.plates)
+    thickness = keys.plate_thickness or thickness_for(bearings, keys.plate_material, keys.plates)
     if thickness < least_thickness(bearings):
-        least = stock_for(least_thickness(bearings), keys.plates)
+        least = plate_for(least_thickness(bearings), keys.plate_material, keys.plates)
         return [_too_thin(thickness, least)]
     space = space_of(parts, motion)
     levels = levels_of(space, chosen, keys, thickness)

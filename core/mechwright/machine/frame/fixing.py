@@ -24,11 +24,12 @@ class Fixing:
     sunk: float = 0.0
 
 
-def fixing(size: float, grip: float, depth: float, sink: float = 0.0) -> Fixing:
+def fixing(size: float, grip: float, depth: float, sink: float = 0.0, washers: int = 0) -> Fixing:
     """The screw that goes as deep as it may through a grip into a blind thread, mm.
 
     Its end stays clear of the thread's by ``SPARE``, and it engages ``LEAST_ENGAGED`` diameters at least.
-    Where no length does, washers are put under the head, or the head is sunk, by up to ``sink``.
+    Where no length does, more than ``washers`` are put under the head, or the head is sunk, by up to
+    ``sink``.
 
     Raises DesignError where all that does not help.
 
@@ -36,7 +37,7 @@ def fixing(size: float, grip: float, depth: float, sink: float = 0.0) -> Fixing:
     (20, 1, 0.5)
     """
     most, least = depth - SPARE, LEAST_ENGAGED * size
-    for count in range(WASHERS + 1):
+    for count in range(washers, WASHERS + 1):
         thick = grip + count * (washer(size).height if count else 0.0)
         fitting = [
             one for one in lengths(size) if thick + least <= one + _SAME and one <= thick + most + _SAME

@@ -17,7 +17,7 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Flange, Foot
 from mechwright.contracts.surroundings import OVER, Place, Surroundings, Turn
 from mechwright.errors import DesignError
-from mechwright.machine.frame.base import FOOT, HOLE, LEAST, MOST, SLENDER, add_foot, base_stock
+from mechwright.machine.frame.base import FOOT, add_foot, base_stock, foot, least_thickness
 from mechwright.machine.frame.bracket import Bracket, add_bracket, least_half
 from mechwright.machine.frame.coupled import coupling_below, face_below, outline
 from mechwright.machine.frame.decided import Wanted
@@ -31,7 +31,7 @@ from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import CLEARANCE, Standing
 from mechwright.mechanics.strength.fastening import press_fit_torque
 from mechwright.standards.couplings import OverloadError, coupling_for
-from mechwright.standards.screws import Screw, lengths, screw, screw_size
+from mechwright.standards.screws import Screw, lengths, screw, through_hole
 
 INWARDS: Turn = ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 """The flange's own frame, whose z points from the motor to the mechanism, in a body whose x is the axis."""
@@ -207,20 +207,21 @@ def _under(flange: Flange, bracket: Bracket | None, motion: Motion) -> Standing:
 def _add_base(kit: Kit, flange: Flange, standing: Standing, keys: FrameKeys) -> None:
     """The base plate under the foot, and the screws that hold both; heights from the foot's upper face."""
     plate, edge = flange.foot, FOOT[0] / 2 + 2.0
-    wanted = min(max(LEAST, (standing.longer + 2 * edge) / SLENDER), MOST)
-    thickness, material = base_stock(wanted, keys.plates), keys.plate_material
+    material, (wide, high) = keys.plate_material, standing.size
+    wanted = least_thickness((wide + 2 * edge, high + 2 * edge), material)
+    thickness = base_stock(wanted, material, keys.plates)
     top = -plate.thickness
     low = top - thickness
-    fixing = _fixing(plate, thickness)
-    clear = float(math.ceil(screw_size(plate.screw).clearance()))
+    fixing, foot_hole = _fixing(plate, thickness), through_hole(foot().threads[0].diameter, thickness)
+    clear = through_hole(plate.screw, thickness)
     holes = []
     for k, (x, y) in enumerate(plate.holes, start=1):
         holes.append(Hole.through(f"stand-{k}", (x, -y), clear, thickness))
         kit.places[f"stand-{k}"] = Place((x, -y, 0.0), OVER)
         put_screw(kit, fixing, f"stand-{k}", -low)
     for k, (x, y) in enumerate(standing.corners, start=1):
-        holes.append(Hole.through(f"foot-{k}", (x, y), HOLE, thickness))
-        add_foot(kit, f"foot-{k}", (x, y), top, thickness)
+        holes.append(Hole.through(f"foot-{k}", (x, y), foot_hole, thickness))
+        add_foot(kit, f"foot-{k}", (x, y), top, thickness, material)
     kit.places["base-carrier"] = Place()
     add_plate(kit, "base-plate", standing, edge, thickness, material, holes, "base-carrier", low)
     held = _fixing(plate, plate.grip)

@@ -12,7 +12,6 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import GroundPlate
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
-from mechwright.machine.frame.base import HOLE
 from mechwright.machine.frame.coupled import (
     BESIDE,
     GAP,
@@ -31,7 +30,7 @@ from mechwright.machine.frame.pillars import PILLAR, SCREW
 from mechwright.machine.frame.standing import CLEARANCE
 from mechwright.machine.frame.sweep import Space, Swept
 from mechwright.standards.couplings import BORES, Coupling, OverloadError, coupling_for
-from mechwright.standards.screws import lengths, screw_size
+from mechwright.standards.screws import lengths, needs_washer, screw_size, through_hole, washer
 
 WITHOUT = ("bearing", "plate_thickness", "cover", "guard")
 """Keys of bearing plates, of which there are none here."""
@@ -86,19 +85,19 @@ def key_faults(keys: FrameKeys, ground: GroundPlate) -> list[Finding]:
     found = plate_key_faults(keys)
     if keys.frame == "plates":
         return found
-    least = screw_size(SCREW).clearance("fine")
-    if not least <= ground.hole <= HOLE:
+    least, most_hole = screw_size(SCREW).clearance("fine"), float(math.ceil(screw_size(SCREW).clearance()))
+    if not least <= ground.hole <= most_hole:
+        # A bolt that is as thick as the hole bears on its shoulder.
+        works = most_hole if ground.bolts else through_hole(SCREW, ground.high - ground.low)
         said = (
             f"the ground plate's holes of {ground.hole:g} mm do not fit the screws M{SCREW:g} of its legs: "
-            f"{least:g} to {HOLE:g} mm"
+            f"{least:g} to {most_hole:g} mm"
         )
-        change = {ground.hole_key: HOLE}
-        found.append(
-            fault(
-                "frame.ground-holes", ground.hole_key, said, ground.hole, HOLE, f"make it {HOLE:g}", (change,)
-            )
-        )
-    thick, most = ground.high - ground.low, lengths(SCREW, "cap")[-1] - SCREW
+        change = {ground.hole_key: works}
+        key, remedy = ground.hole_key, f"make it {works:g}"
+        found.append(fault("frame.ground-holes", key, said, ground.hole, works, remedy, (change,)))
+    thick = ground.high - ground.low
+    most = lengths(SCREW, "cap")[-1] - SCREW - washers_on(ground) * washer(SCREW).height
     if thick > most and ground.bolts is None:
         key = ground.thickness_key
         said = f"no screw M{SCREW:g} is long enough for a ground plate of {thick:g} mm: {most:g} mm at most"
@@ -166,8 +165,9 @@ def foot_of(
     """
     pieces = placed(ground, space, motion)
     _hanging(keys, ground, pieces, wanted, coupling)
-    size = screw_size(SCREW)
-    top = ground.high + size.head_height + keys.axial_gap
+    size, count = screw_size(SCREW), washers_on(ground)
+    top = ground.high + count * washer(SCREW).height + size.head_height + keys.axial_gap
+    head = max(size.head, size.washer[1] if count else 0.0)
     over = []
     if ground.bolts is None:  # else links pass between plates, and heads are the mechanism's own
         over = [one for one in pieces if one.low < top and one.high > ground.high and one.body != ground.body]
@@ -177,7 +177,7 @@ def foot_of(
         """The motor's, or what is in the way."""
         for at in map(shapely.Point, corners):
             for one in over:
-                if one.region.distance(at) < size.head / 2 + CLEARANCE:
+                if one.region.distance(at) < head / 2 + CLEARANCE:
                     return None, f"{one.part} passes over the head of the screw"
             for one in under:
                 if one.region.distance(at) < PILLAR / 2 + CLEARANCE:
@@ -190,6 +190,11 @@ def foot_of(
         far = max((abs(end) for one in (*over, *under) for end in one.region.bounds), default=0.0)
         raise GroundError(_offset_fault(ground, why, far, lambda corners: attitude(corners)[0] is not None))
     return angle
+
+
+def washers_on(ground: GroundPlate) -> int:
+    """How many washers lie under the head of each screw through the ground plate."""
+    return int(needs_washer(SCREW, ground.hole, ""))
 
 
 def placed(ground: GroundPlate, space: Space, motion: Motion) -> list[Swept]:

@@ -14,7 +14,7 @@ from mechwright.contracts.mounting import GroundPlate
 from mechwright.contracts.surroundings import Place, Surroundings
 from mechwright.contracts.turned import TAP_RUN
 from mechwright.errors import DesignError
-from mechwright.machine.frame.base import UNDER, add_base, leg_screw, thickness_for
+from mechwright.machine.frame.base import UNDER, add_base, leg_fixing, thickness_for
 from mechwright.machine.frame.coupled import (
     PLATE,
     Coupled,
@@ -26,6 +26,7 @@ from mechwright.machine.frame.coupled import (
     outline,
 )
 from mechwright.machine.frame.decided import Wanted
+from mechwright.machine.frame.fixing import Fixing, put_fixing
 from mechwright.machine.frame.ground_refusals import (
     GroundError,
     coupling_on,
@@ -35,6 +36,7 @@ from mechwright.machine.frame.ground_refusals import (
     lowest_of,
     motor_wanted,
     refusal,
+    washers_on,
 )
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
@@ -53,7 +55,7 @@ from mechwright.machine.frame.pillars import (
 from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Standing
 from mechwright.machine.frame.sweep import Space
-from mechwright.standards.screws import screw_size
+from mechwright.standards.screws import screw_size, washer
 
 
 def base_under(
@@ -103,8 +105,7 @@ def built(ground: GroundPlate, coupled: Coupled | None, keys: FrameKeys, lowest:
             put_screw(kit, joint, post.name, coupled.top + below)
         depth = below
         under, lowest = coupled.face, coupled.low
-    thickness = thickness_for(standing, keys.plates)
-    foot = leg_screw(thickness).length - thickness
+    _, foot = leg_fixing(thickness_for(standing, material, keys.plates), material)
     top = min(lowest - UNDER, under - _least(foot, depth))
     add_base(kit, standing, list(posts), under, top, depth, material, keys.plates)
     return kit
@@ -132,10 +133,12 @@ def _columns(kit: Kit, ground: GroundPlate) -> tuple[tuple[Standing, Sequence[Co
         post.place(kit)
     if ground.bolts is not None:
         return (standing, posts), ground.bolts[1]
-    fixing = cap_screw(ground.high - ground.low)
+    count = washers_on(ground)
+    grip = ground.high - ground.low + count * washer(SCREW).height
+    found = cap_screw(grip)
     for post in posts:
-        put_screw(kit, fixing, post.name, ground.high)
-    return (standing, posts), fixing.length - (ground.high - ground.low)
+        put_fixing(kit, Fixing(found, count), post.name, ground.high)
+    return (standing, posts), found.length - grip
 
 
 def _least(one: float, two: float) -> float:

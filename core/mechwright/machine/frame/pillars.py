@@ -14,9 +14,9 @@ from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.plates import Hole
-from mechwright.standards.screws import Screw, lengths, screw, screw_size
+from mechwright.standards.screws import FRAME, Screw, lengths, screw, screw_size
 
-SCREW = 5.0
+SCREW = FRAME
 """Thread of pillars and legs, mm."""
 
 PILLAR, SPIGOT = 12.0, 8.0

@@ -15,9 +15,7 @@ from mechwright.machine.frame.seats import Seat
 from mechwright.machine.frame.standing import Standing
 from mechwright.mechanics.linkage import Boss, rectangle
 from mechwright.standards.bearings import Bearing
-
-STOCK = (6, 8, 10, 12, 15, 20, 25, 30, 40, 50, 60)
-"""Thicknesses in which plates are sold, mm."""
+from mechwright.standards.stock import plate_for
 
 FLOOR = 2.5
 """Least thickness behind a bearing, mm: the shoulder that it leans on."""
@@ -37,22 +35,9 @@ def least_thickness(bearings: Sequence[Bearing]) -> float:
     return max(bearing.width for bearing in bearings) + FLOOR
 
 
-def thickness_for(bearings: Sequence[Bearing], in_hand: Sequence[float] = ()) -> float:
-    """The stock size of a plate that has these bearings, mm."""
-    return stock_for(max(LEAST, least_thickness(bearings)), in_hand)
-
-
-def stock_for(wanted: float, in_hand: Sequence[float] = ()) -> float:
-    """The least plate that is at least so thick, mm: one in hand, or as they are sold where none of these is.
-
-    >>> stock_for(11), stock_for(11, (9.525, 19.05, 12.7)), stock_for(25.1, (12.7,))
-    (12.0, 12.7, 30.0)
-    """
-    for sizes in (sorted(in_hand), STOCK):
-        fitting = [float(one) for one in sizes if one >= wanted]
-        if fitting:
-            return fitting[0]
-    raise ValueError(f"no plate is {wanted:g} mm thick")
+def thickness_for(bearings: Sequence[Bearing], material: str, in_hand: Sequence[float] = ()) -> float:
+    """The thickness of a plate that has these bearings, mm, as it is sold or in hand."""
+    return plate_for(max(LEAST, least_thickness(bearings)), material, in_hand)
 
 
 @dataclass(frozen=True)

@@ -6,17 +6,26 @@ by Coulomb's friction.
 
 import math
 
-PROOF = {"8.8": 640.0, "10.9": 940.0, "12.9": 1100.0}
-"""Strength class to R_p0.2, MPa (ISO 898-1, up to M16)."""
+PROOF = {"8.8": 640.0, "10.9": 940.0, "12.9": 1100.0, "A2-70": 450.0}
+"""Strength class to R_p0.2, MPa (ISO 898-1 up to M16, ISO 3506-1)."""
 
 SHARE = 0.7
-"""Of R_p0.2 that the preload takes."""
+"""Of R_p0.2 that the preload takes: it leaves 30 % for the load, and a torque wrench is 15 % off."""
+
+UTILISED = 0.9
+"""Of R_p0.2 that tension and torsion may take together while a screw is tightened (VDI 2230)."""
 
 FRICTION = 0.12
 """Of oiled steel, in thread, under the head and between faces."""
 
-_FLANK = 0.577
-"""1/(2 cos 30°): friction on flanks of 60° (VDI 2230: 0.58)."""
+STAINLESS_FRICTION = 0.2
+"""Of stainless screws with paste; dry ones gall."""
+
+_FLANK, _LEAN = 0.57735, 1.155
+"""Friction on flanks of 60°, 1/(2 cos 30°) and its double, as VDI 2230 prints it."""
+
+_MEAN, _PITCH = 0.938194, 0.649519
+"""By how many pitches the diameter of the stress area and the pitch diameter are below the nominal one."""
 
 CLAMP_SAFETY = 2.0
 """Of a clamp, or of what else joins two parts, against the peak torque."""
@@ -28,7 +37,7 @@ def stress_area(d: float, pitch: float) -> float:
     >>> round(stress_area(4, 0.7), 4)
     8.7787
     """
-    return math.pi / 4 * (d - 0.9382 * pitch) ** 2
+    return math.pi / 4 * (d - _MEAN * pitch) ** 2
 
 
 def preload(area: float, proof: float = PROOF["8.8"], share: float = SHARE) -> float:
@@ -36,11 +45,32 @@ def preload(area: float, proof: float = PROOF["8.8"], share: float = SHARE) -> f
     return share * proof * area
 
 
+def friction_of(grade: str) -> float:
+    """In the thread and under the head of a screw of a strength class."""
+    return STAINLESS_FRICTION if grade.startswith("A") else FRICTION
+
+
+def yield_preload(
+    d: float, pitch: float, proof: float, friction: float = FRICTION, share: float = UTILISED
+) -> float:
+    """At which tension and the torsion of tightening take a share of R_p0.2 together, N (VDI 2230).
+
+    ν R_p0.2 A_S/√(1 + 3 (1.5 d2/d_S (P/(π d2) + 1.155 μ))²) with A_S = π/4 d_S².
+
+    >>> round(yield_preload(5, 0.8, PROOF["8.8"]))
+    7202
+    """
+    area, flank = stress_area(d, pitch), d - _PITCH * pitch
+    lean = pitch / (math.pi * flank) + _LEAN * friction
+    torsion = 1.5 * flank / math.sqrt(4 * area / math.pi) * lean
+    return share * proof * area / math.sqrt(1 + 3 * torsion**2)
+
+
 def tightening_torque(
     force: float, d: float, pitch: float, head: float, hole: float, friction: float = FRICTION
 ) -> float:
     """N m: F (P/2π + 0.577 d2 μ + (dk + dh)/4 μ) with the pitch diameter d2 = d - 0.6495 P."""
-    flank = d - 0.6495 * pitch
+    flank = d - _PITCH * pitch
     lever = pitch / math.tau + _FLANK * flank * friction + (head + hole) / 4 * friction
     return force * lever / 1000
 

@@ -90,6 +90,8 @@ def stepper_margin(motor: Stepper, demand: Demand, voltage: float = 24.0) -> flo
 def gear_motor_margin(motor: GearMotor, demand: Demand) -> float:
     """The same: the least of what its line, its peak and its sustained torque cover; 0 where it never turns.
 
+    Its gearbox bears less than the shares of the stall torque where the ratio is high.
+
     >>> from mechwright.standards.motors import motor
     >>> gear_motor_margin(motor("37D 150:1"), Demand(70, 0.0, 0.0))  # 67 rev/min without load
     0.0
@@ -98,5 +100,9 @@ def gear_motor_margin(motor: GearMotor, demand: Demand) -> float:
         return 0.0
     stall = motor.stall_torque
     line = dc_torque(motor.no_load, stall, demand.speed)
-    covers = [(line, demand.peak), (PEAK * stall, demand.peak), (SUSTAINED * stall, demand.rms)]
+    covers = [
+        (line, demand.peak),
+        (min(PEAK * stall, motor.peak), demand.peak),
+        (min(SUSTAINED * stall, motor.continuous), demand.rms),
+    ]
     return min(given / asked if asked > 0 else math.inf for given, asked in covers)

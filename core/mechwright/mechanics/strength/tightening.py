@@ -9,7 +9,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from mechwright.mechanics.strength.bolts import PROOF, preload, stress_area, tightening_torque
+from mechwright.mechanics.strength.bolts import (
+    PROOF,
+    friction_of,
+    preload,
+    stress_area,
+    tightening_torque,
+    yield_preload,
+)
 
 RUN_OUT = 0.8
 """Turns of an engaged thread that bear nothing: its countersink and the screw's point."""
@@ -20,7 +27,7 @@ STRIP_SAFETY = 1.5
 LEAST_ENGAGED = 0.8
 """Length of thread that a screw has to engage in any case, in diameters: five turns of a coarse one."""
 
-SCREW_SHEAR = {"8.8": 480.0, "10.9": 624.0, "12.9": 732.0}
+SCREW_SHEAR = {"8.8": 480.0, "10.9": 624.0, "12.9": 732.0, "A2-70": 420.0}
 """Strength class to the shear strength of the screw's own turns, MPa: 0.6 of the tensile strength."""
 
 BOND = 0.5
@@ -125,13 +132,15 @@ def tightening(
     'screw'
     """
     size, pitch, head, hole = screw
+    friction, proof = friction_of(grade), PROOF[grade]
+    own = min(preload(stress_area(size, pitch), proof), yield_preload(size, pitch, proof, friction))
     forces: list[tuple[float, Limit]] = [
-        (preload(stress_area(size, pitch), PROOF[grade]), "screw"),
+        (own, "screw"),
         (strips_at / STRIP_SAFETY, "thread"),
         *((one.force, "head") for one in clamped),
     ]
     force, limit = min(forces, key=lambda one: one[0])
-    torque = tightening_torque(force, size, pitch, head, hole)
+    torque = tightening_torque(force, size, pitch, head, hole, friction)
     if torque <= most:
         return Tightening(torque, force, limit)
     return Tightening(most, force * most / torque, "holder")

@@ -1,11 +1,14 @@
 """The ground plate, from which a base, legs and a motor can follow."""
 
-from mechwright.contracts.mounting import SCREW_HOLE, GroundPlate, MountingError
+from mechwright.contracts.mounting import GroundPlate, MountingError
 from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.parts import BOLT, pin_span
 from mechwright.mechanics.linkage.parts.retention import retention_of
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.machine import Prismatic
+
+BOLT_HOLE = 6.0
+"""Diameter of bolts between two ground plates, mm: their ends M5 leave a shoulder."""
 
 
 def mounting_of(layout: Layout) -> GroundPlate:
@@ -32,8 +35,8 @@ def mounting_of(layout: Layout) -> GroundPlate:
     if layout.posts and sizes.screw_hole is None:
         raise MountingError(
             "parameters.screw_hole: the bolts of both ground plates have no threaded ends for the pillars of "
-            f"a frame; set screw_hole = {SCREW_HOLE:g}",
-            ({"parameters.screw_hole": SCREW_HOLE},),
+            f"a frame; set screw_hole = {BOLT_HOLE:g}",
+            ({"parameters.screw_hole": BOLT_HOLE},),
         )
     low = layout.stack.bottom(GROUND)
     x = sorted({at.real for at in layout.screws})
