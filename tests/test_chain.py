@@ -155,7 +155,8 @@ def test_stages_stand_on_the_shaft_before_and_over_each_other() -> None:
         assert driver[:2] == pytest.approx(gear[:2], abs=1e-9)
         way = wheel[:2] - driver[:2]
         assert math.degrees(math.atan2(way[1], way[0])) % 360 == pytest.approx(180 + turned, abs=1e-9)
-        assert driver[2] == pytest.approx(10 + 3, abs=1e-9)  # gears of 10 mm from 0 upwards
+        # Gears of 10 mm from 0 upwards; the locking disc, 12 mm, stands 1.5 mm below the wheel of 10 mm.
+        assert driver[2] == pytest.approx(10 + 3 + 1.5, abs=1e-9)
         between = [
             motion.poses["1-gear-4"].rotation[k].T @ motion.poses["2-driver"].rotation[k] for k in range(5)
         ]
