@@ -42,7 +42,8 @@ class BodyLayers:
         found = [layers_of(body, sample, UP) for body in bodies]
         self._layers = [layers or (_box(body, sample),) for body, layers in zip(bodies, found, strict=True)]
         self._bodies, self._sample = bodies, sample
-        self._meshes: dict[int, Manifold | None] = {k: None for k, one in enumerate(found) if one is None}
+        self._meshes = frozenset(k for k, one in enumerate(found) if one is None)
+        self._solids: dict[int, Manifold] = {}
         self._known: dict[tuple[int, int], bool] = {}
 
     def box(self, number: int) -> Array:
@@ -75,20 +76,18 @@ class BodyLayers:
         if one in self._meshes or two in self._meshes:
             corners = np.concatenate([self.box(one), self.box(two)])
             reach = float(np.linalg.norm(np.ptp(corners, axis=0)))
-            return float(self._mesh(one).min_gap(self._mesh(two), reach))
+            return float(self.solid(one).min_gap(self.solid(two), reach))
         return min(
             math.hypot(max(a.low - b.high, b.low - a.high, 0.0), shapely.distance(a.shape, b.shape))
             for a in self._layers[one]
             for b in self._layers[two]
         )
 
-    def _mesh(self, number: int) -> Manifold:
-        known = self._meshes.get(number)
-        if known is None:
-            known = Surface(*mesh_points(self._bodies[number], self._sample)).manifold
-            if number in self._meshes:
-                self._meshes[number] = known
-        return known
+    def solid(self, number: int) -> Manifold:
+        """A body where it stands, as the library for booleans has it."""
+        if number not in self._solids:
+            self._solids[number] = Surface(*mesh_points(self._bodies[number], self._sample)).manifold
+        return self._solids[number]
 
     def _look(self, one: int, two: int, gap: float) -> bool:
         a, b = self.box(one), self.box(two)
@@ -97,7 +96,7 @@ class BodyLayers:
         if (a[0] > b[1] + gap).any() or (b[0] > a[1] + gap).any():
             return False
         if one in self._meshes or two in self._meshes:
-            first, second = self._mesh(one), self._mesh(two)
+            first, second = self.solid(one), self.solid(two)
             return bool(first.min_gap(second, 2 * gap) < gap)
         return any(
             first.low <= second.high + gap
