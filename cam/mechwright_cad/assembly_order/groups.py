@@ -44,13 +44,12 @@ class BodyLayers:
         self._bodies, self._sample = bodies, sample
         self._meshes = frozenset(k for k, one in enumerate(found) if one is None)
         self._solids: dict[int, Manifold] = {}
+        self._boxes = [_box_of(layers) for layers in self._layers]
         self._known: dict[tuple[int, int], bool] = {}
 
     def box(self, number: int) -> Array:
         """The least and the greatest corner (2, 3) of the box round a body, mm."""
-        layers = self._layers[number]
-        x0, y0, x1, y1 = shapely.total_bounds([layer.shape for layer in layers])
-        return np.array(((x0, y0, layers[0].low), (x1, y1, max(layer.high for layer in layers))))
+        return self._boxes[number]
 
     def touch(self, one: int, two: int) -> bool:
         """Whether two bodies, by number, are nearer than ``TOUCHING``; each pair is looked at once."""
@@ -105,6 +104,11 @@ class BodyLayers:
             for first in self._layers[one]
             for second in self._layers[two]
         )
+
+
+def _box_of(layers: Sequence[Layer]) -> Array:
+    x0, y0, x1, y1 = shapely.total_bounds([layer.shape for layer in layers])
+    return np.array(((x0, y0, layers[0].low), (x1, y1, max(layer.high for layer in layers))))
 
 
 def _box(body: Body, sample: int) -> Layer:

@@ -52,6 +52,7 @@ class Holding:
         self.blocking, self.fastenings, self.ways = blocking, tuple(fastenings), ways
         self.fastened = frozenset[int]().union(*(one.needs for one in self.fastenings))
         self._units: dict[frozenset[int], dict[int, Unit]] = {}
+        self._balanced: dict[tuple[Unit, frozenset[int], float], bool] = {}
         self._areas: dict[tuple[int, int], shapely.Geometry] = {}
         self._falling: dict[tuple[frozenset[int], int, Way], tuple[Unit, ...]] = {}
 
@@ -139,11 +140,18 @@ class Holding:
     def _rests(self, unit: Unit, units: Mapping[int, Unit], ground: Unit, down: Array) -> bool:
         if not self._stopped(unit, units, ground, down):
             return False
-        area = self._touched(unit, units, down)
-        if area is None or shapely.covers(shapely.convex_hull(area), self._centre(unit)):
-            return True
         u, v, _ = frame_of(down)
-        return all(self._stopped(unit, units, ground, way) for way in (u, -u, v, -v))
+        if all(self._stopped(unit, units, ground, way) for way in (u, -u, v, -v)):
+            return True
+        under = frozenset(
+            other for k in unit for other in self.blocking.neighbours[k] if units.get(other, unit) != unit
+        )
+        key = (unit, under, float(down[2]))
+        if key not in self._balanced:
+            area = self._touched(unit, under, down)
+            balanced = area is None or shapely.covers(shapely.convex_hull(area), self._centre(unit))
+            self._balanced[key] = bool(balanced)
+        return self._balanced[key]
 
     def _carries(self, unit: Unit, there: frozenset[int], ground: Unit, down: Array) -> bool:
         """Whether a unit lies on the bench under all others, with the middle of the ground over its feet."""
@@ -159,20 +167,14 @@ class Holding:
         area = shapely.union_all([shapely.box(*standing.box(k)[:, :2].ravel()) for k in feet])
         return bool(shapely.covers(shapely.convex_hull(area), self._centre(ground)))
 
-    def _touched(self, unit: Unit, units: Mapping[int, Unit], down: Array) -> shapely.Geometry | None:
-        """The area on which a unit lies, seen from above; None where it is not known."""
+    def _touched(self, unit: Unit, under: frozenset[int], down: Array) -> shapely.Geometry | None:
+        """The area on which a unit lies on others, seen from above; None where it is not known."""
         standing = self.blocking.standing
-        if abs(down[2]) < 1 - PARALLEL or not all(standing.layered(k) for k in unit):
+        if abs(down[2]) < 1 - PARALLEL or not all(standing.layered(k) for k in unit | under):
             return None
-        pieces = []
-        for k in unit:
-            for other in self.blocking.neighbours[k]:
-                if units.get(other, unit) == unit:
-                    continue
-                if not standing.layered(other):
-                    return None
-                pieces.append(self._lies_on(k, other) if down[2] < 0 else self._lies_on(other, k))
-        return shapely.union_all(pieces)
+        pairs = [(k, other) for k in unit for other in under & set(self.blocking.neighbours[k])]
+        lying = [self._lies_on(*(pair if down[2] < 0 else pair[::-1])) for pair in pairs]
+        return shapely.union_all(lying)
 
     def _lies_on(self, one: int, two: int) -> shapely.Geometry:
         """The area of two layered bodies on which the first lies on the second."""

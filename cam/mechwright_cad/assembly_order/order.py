@@ -390,7 +390,11 @@ class Order:
         if len(units) < 2:
             return
         barred = self.table.barred(way) | self._clamped
-        graph = np.array([[a is not b and barred[np.ix_(a, b)].any() for b in units] for a in units])
+        inside_of = np.zeros((len(units), len(self.bodies)), dtype=np.int64)
+        for which, unit in enumerate(units):
+            inside_of[which, unit] = 1
+        graph = inside_of @ barred @ inside_of.T > 0
+        np.fill_diagonal(graph, val=False)
         count, of = connected_components(graph, directed=True, connection="strong")
         for which in range(count if count > 1 else 0):
             inside = of == which

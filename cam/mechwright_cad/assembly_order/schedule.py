@@ -63,29 +63,44 @@ def scheduled(
     last: Coming | None = None
     hand: tuple[int, ...] = ()
     while left:
-        ready = [k for k in left if not any(before[m, k] for m in left)]
         loose = len(holding.loose(there, root))
 
         def worth(k: int) -> tuple[object, ...]:
             unit = units[k]
             after = there.union(unit.bodies)
-            _, falling = holding.down(after, root, down, unit.way)
-            copy = last is not None and last.alike == unit.alike and last.way == unit.way
+            lies, falling = holding.down(after, root, down, unit.way)
+            steps = 0
+            if falling:
+                others = [m for m in left if m != k]
+                steps = _steps_until_held(units, others, before, holding, (after, root, lies))
+            copy = not falling and last is not None and (last.alike, last.way) == (unit.alike, unit.way)
             fastens = not copy and len(unit.bodies) == 1 and unit.bodies[0] in holding.fastened
             helps = fastens and len(holding.loose(after, root)) < loose
-            rescued = not falling or any(
-                not holding.down(after.union(units[m].bodies), root, down, units[m].way)[1]
-                for m in left
-                if m != k and not any(before[n, m] for n in left if n != k)
-            )
-            tight = hand and len(falling) >= 1
-            return len(falling) > 1, bool(tight), not rescued, not copy, not helps, k
+            return len(falling) > 1, steps if hand else max(steps - 1, 0), not copy, not helps, k
 
-        chosen = min(ready, key=worth)
-        unit = units[chosen]
+        unit = units[min((k for k in left if not before[left, k].any()), key=worth)]
         there = there.union(unit.bodies)
         down, falling = holding.down(there, root, down, unit.way)
         hand = tuple(sorted(k for one in falling for k in one))
-        left.remove(chosen)
+        left = [k for k in left if units[k] is not unit]
         last = unit
         yield Placed(unit, down, hand)
+
+
+def _steps_until_held(
+    units: Sequence[Coming],
+    left: Sequence[int],
+    before: NDArray[np.bool_],
+    holding: Holding,
+    state: tuple[frozenset[int], int, Way],
+) -> int:
+    """After how many more units nothing falls any more, at best; one more than there are if never."""
+    there, root, down = state
+    least = len(left) + 1
+    for k in left:
+        needed = [m for m in left if m == k or before[m, k]]
+        if len(needed) < least:
+            after = there.union(*(units[m].bodies for m in needed))
+            if not holding.falling(after, root, down):
+                least = len(needed)
+    return least
