@@ -15,7 +15,7 @@ falling
     A unit that is neither held nor rests: a fitter has to hold it by hand.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -95,14 +95,18 @@ class Holding:
     def down(self, there: frozenset[int], root: int, down: Way, way: Way) -> tuple[Way, tuple[Unit, ...]]:
         """Which way is down for a step along ``way``, and what falls then.
 
-        The assembly stays as it lies if nothing falls. Else it is turned so that what comes goes downwards, or
-        upright, if nothing falls then. Else it stays, and what falls is held by hand.
+        The assembly stays as it lies if nothing falls. Else it is turned so that what comes goes downwards if
+        no more falls then, or upright if nothing does. What falls is held by hand.
         """
         straight = max(abs(x) for x in way) > STRAIGHT
-        for tried in dict.fromkeys((down, *((way,) if straight else ()), *UPRIGHT)):
-            if not self.falling(there, root, tried):
-                return tried, ()
-        return down, self.falling(there, root, down)
+        falling = self.falling(there, root, down)
+        if not falling:
+            return down, ()
+        for tried in dict.fromkeys((*((way,) if straight else ()), *UPRIGHT)):
+            found = self.falling(there, root, tried)
+            if not found or (tried == way and len(found) <= len(falling)):
+                return tried, found
+        return down, falling
 
     def loose(self, there: frozenset[int], root: int) -> list[Unit]:
         """Units that are not held: some way is free to each of them."""
@@ -152,6 +156,13 @@ class Holding:
             balanced = area is None or shapely.covers(shapely.convex_hull(area), self._centre(unit))
             self._balanced[key] = bool(balanced)
         return self._balanced[key]
+
+    def carries(self, there: frozenset[int], root: int, some: Iterable[int]) -> bool:
+        """Whether some bodies are units of their own that lie on the bench, upright, under all others."""
+        units, those = self.units(there), frozenset(some)
+        ground, down = units[root], np.array(UPRIGHT[0])
+        own = {units[k] for k in those if units[k] <= those}
+        return any(unit != ground and self._carries(unit, there, ground, down) for unit in own)
 
     def _carries(self, unit: Unit, there: frozenset[int], ground: Unit, down: Array) -> bool:
         """Whether a unit lies on the bench under all others, with the middle of the ground over its feet."""
