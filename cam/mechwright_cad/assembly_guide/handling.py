@@ -91,4 +91,3 @@ def whence(way: Way) -> str:
     if tilt > LEVEL_FROM:
         return f"from {side}"
     return f"from {'above' if z < 0 else 'below'}, tilted {tilt:.0f} degrees to {side}"
-

@@ -7,7 +7,7 @@ import numpy as np
 from mechwright_cad.assembly_guide.adjusting import Adjusting, Float
 from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.handling import Handling, whence
-from mechwright_cad.assembly_guide.pressing import pressed
+from mechwright_cad.assembly_guide.pressing import BENCH, pressed
 from mechwright_cad.assembly_guide.tools import fitted, screwed
 from mechwright_cad.assembly_order.fastenings import ROOM, needs_compound
 from mechwright_cad.assembly_order.groups import is_bearing, rigid
@@ -83,6 +83,8 @@ class Words:
             said += self._adjusting.crosswise(step)
         said += self._adjusting.aligning(step)
         said += self._drawn_tight(step)
+        if self._tight_in(step) and plan.order.seats.is_bush(step.moved[0]):
+            said.append(f"{BENCH} Use a mandrel as thick as the shaft, with a shoulder.")
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
         said += dict.fromkeys(
             mark.note
@@ -145,7 +147,11 @@ class Words:
     def _moves(self, step: Step, found: Sequence[Match]) -> str:
         group = len({self.plan.bodies[k].part.name for k in step.moved}) > 1
         what = f"Put the group of {self.name(self.main(step))}" if group else f"Put {self.names(step.moved)}"
-        near = dict.fromkeys(k for match in found for k in (match.pin, match.hole) if k in step.onto)
+        near: dict[int, None] = dict.fromkeys(
+            k for match in found for k in (match.pin, match.hole) if k in step.onto
+        )
+        tight = self._tight_in(step)
+        near = near or tight
         if not near and self._leans(step):
             touch = self.plan.order.standing.touch
             near = {k: None for k in step.onto if any(touch(k, m) for m in step.moved)}
@@ -153,8 +159,20 @@ class Words:
         where = self.names(tuple(touched or (max(step.onto, key=self.plan.order.size),)))
         pins = bool(found) and all(match.pin in step.moved for match in found) and not group
         turned = len(touched) > 0 and all(self.plan.bodies[k].part.turned for k in step.moved)
-        how = "into" if pins or (turned and self._leans(step)) else "onto" if touched else "beside"
+        how = "into" if pins or tight or (turned and self._leans(step)) else "onto" if touched else "beside"
         return f"{what} {how} {where}, {self.way(step)}."
+
+    def _tight_in(self, step: Step) -> dict[int, None]:
+        """Solids without declared holes into which a step presses a pin or a bush."""
+        order, new = self.plan.order, set(step.moved)
+        known = {frozenset((one.pin, one.hole)) for one in order.seats.matches}
+        found = [one.joins for one in order.holding.fastenings if one.kind == "pressed"]
+        return {
+            k: None
+            for pair in found
+            if pair not in known and len(new) == 1 and pair & new
+            for k in pair - new & set(step.onto)
+        }
 
     def _below(self, step: Step) -> dict[int, None]:
         """What a step would meet first if it went on."""

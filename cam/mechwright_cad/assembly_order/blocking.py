@@ -34,7 +34,9 @@ class Blocking:
         """For each body those whose boxes are not farther away than the move."""
         boxes = np.array([self.standing.box(k) for k in range(len(self.bodies))])
         low, high = boxes[:, 0], boxes[:, 1]
-        near = (low[:, None] <= high[None] + MOVE).all(axis=2) & (low[None] <= high[:, None] + MOVE).all(axis=2)
+        near = (low[:, None] <= high[None] + MOVE).all(axis=2) & (low[None] <= high[:, None] + MOVE).all(
+            axis=2
+        )
         np.fill_diagonal(near, val=False)
         return [np.flatnonzero(row).tolist() for row in near]
 

@@ -51,9 +51,7 @@ class Seats:
     def __init__(self, bodies: Sequence[Body], motion: Motion, sample: int, standing: BodyLayers) -> None:
         self.bodies, self.sample, self.standing = tuple(bodies), sample, standing
         self._heads = rigid(motion)
-        self.touching = [
-            pair for pair in combinations(range(len(self.bodies)), 2) if standing.touch(*pair)
-        ]
+        self.touching = [pair for pair in combinations(range(len(self.bodies)), 2) if standing.touch(*pair)]
         self.matches: list[Match] = [
             match for one, two in self.touching for match in matches(bodies, sample, (one,), (two,))
         ]

@@ -15,7 +15,7 @@ falling
     A unit that is neither held nor rests: a fitter has to hold it by hand.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -34,6 +34,9 @@ UPRIGHT: tuple[Way, ...] = ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0))
 
 STRAIGHT = 0.999
 """Greatest coordinate of a way from which on an assembly is turned to have it downwards: it lies on a face."""
+
+FOOTING = 0.25
+"""Share of the box round the ground that the feet under it span at least: on less it topples."""
 
 _SIDES: tuple[Way, ...] = tuple(
     (float(np.cos(turn)), float(np.sin(turn)), 0.0) for turn in np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
@@ -81,14 +84,13 @@ class Holding:
         """Units that neither are held nor rest, where ``down`` looks to the floor."""
         key = (there, root, down)
         if key not in self._falling:
-            units = self.units(there)
+            units, way = self.units(there), np.array(down)
             ground = units[root]
+            others = [unit for unit in sorted(set(units.values()), key=min) if unit != ground]
+            lying = [unit for unit in others if self._carries(unit, there, ground, way)]
+            bearing = frozenset((ground, *lying))
             self._falling[key] = tuple(
-                unit
-                for unit in sorted(set(units.values()), key=min)
-                if unit != ground
-                and not self._rests(unit, units, ground, np.array(down))
-                and not self._carries(unit, there, ground, np.array(down))
+                unit for unit in others if unit not in bearing and not self._rests(unit, units, bearing, way)
             )
         return self._falling[key]
 
@@ -104,7 +106,8 @@ class Holding:
             return down, ()
         for tried in dict.fromkeys((*((way,) if straight else ()), *UPRIGHT)):
             found = self.falling(there, root, tried)
-            if not found or (tried == way and len(found) <= len(falling)):
+            upright = tried == way and abs(way[2]) > STRAIGHT
+            if not found or (upright and len(found) <= len(falling)):
                 return tried, found
         return down, falling
 
@@ -116,7 +119,7 @@ class Holding:
             unit
             for unit in sorted(set(units.values()), key=min)
             if unit != ground
-            and not all(self._stopped(unit, units, ground, way) for way in self._tried(unit))
+            and not all(self._stopped(unit, units, {ground}, way) for way in self._tried(unit))
         ]
 
     def _tried(self, unit: Unit) -> Iterator[Array]:
@@ -126,8 +129,8 @@ class Holding:
                 seen |= dict.fromkeys((way, (-way[0], -way[1], -way[2])))
         return (np.array(way) for way in seen)
 
-    def _stopped(self, unit: Unit, units: Mapping[int, Unit], ground: Unit, way: Array) -> bool:
-        """Whether a unit that moves along a way meets the ground, or pushes others against it."""
+    def _stopped(self, unit: Unit, units: Mapping[int, Unit], bearing: Collection[Unit], way: Array) -> bool:
+        """Whether a unit that moves along a way meets one that bears it, or pushes others against one."""
         waiting, seen = [unit], {unit}
         while waiting:
             for k in waiting.pop():
@@ -135,17 +138,17 @@ class Holding:
                     met = units.get(other)
                     if met is None or met in seen or not self.blocking.blocks(k, other, way):
                         continue
-                    if met == ground:
+                    if met in bearing:
                         return True
                     seen.add(met)
                     waiting.append(met)
         return False
 
-    def _rests(self, unit: Unit, units: Mapping[int, Unit], ground: Unit, down: Array) -> bool:
-        if not self._stopped(unit, units, ground, down):
+    def _rests(self, unit: Unit, units: Mapping[int, Unit], bearing: Collection[Unit], down: Array) -> bool:
+        if not self._stopped(unit, units, bearing, down):
             return False
         u, v, _ = frame_of(down)
-        if all(self._stopped(unit, units, ground, way) for way in (u, -u, v, -v)):
+        if all(self._stopped(unit, units, bearing, way) for way in (u, -u, v, -v)):
             return True
         under = frozenset(
             other for k in unit for other in self.blocking.neighbours[k] if units.get(other, unit) != unit
@@ -175,8 +178,11 @@ class Holding:
         feet = [k for k in unit if ends[k] > lowest - TOUCHING]
         if not feet or max(ends[k] for k in there - unit) > lowest - TOUCHING:
             return False
+        corners = np.array([standing.box(k)[:, :2] for k in ground])
         area = shapely.union_all([shapely.box(*standing.box(k)[:, :2].ravel()) for k in feet])
-        return bool(shapely.covers(shapely.convex_hull(area), self._centre(ground)))
+        hull = shapely.convex_hull(area)
+        whole = shapely.box(*np.concatenate((corners[:, 0].min(axis=0), corners[:, 1].max(axis=0))))
+        return bool(hull.area >= FOOTING * whole.area and shapely.covers(hull, self._centre(ground)))
 
     def _touched(self, unit: Unit, under: frozenset[int], down: Array) -> shapely.Geometry | None:
         """The area on which a unit lies on others, seen from above; None where it is not known."""
@@ -217,4 +223,3 @@ class Holding:
             x, y = (centres * volumes[:, None]).sum(axis=0) / volumes.sum()
             found.append((float(x), float(y), float(volumes.sum())))
         return found
-

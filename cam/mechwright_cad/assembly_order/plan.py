@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -124,30 +123,6 @@ def _there(step: Step) -> tuple[int, ...]:
 
 def _merged(one: Step, two: Step) -> Step:
     return replace(one, moved=(*one.moved, *two.moved), down=two.down, hand=(*one.hand, *two.hand))
-
-
-def sequence(self) -> tuple[int, ...]:
-        """Numbers of the bodies in the order in which they come to hand."""
-        return sequence(self.steps, len(self.bodies), self.order.root)
-
-
-def plan_of(build: Build) -> Plan:
-    """The plan at the start of the motion; where that holds bodies fast, at the first place that does not."""
-    first = _at(build, build.design.solve(2), 0)
-    if all(step.way is not None for step in first.steps):
-        return first
-    motion = build.design.solve(LOOKS)
-    for sample in range(1, LOOKS):
-        found = _at(build, motion, sample)
-        if all(step.way is not None for step in found.steps):
-            return found
-    return first
-
-
-def _at(build: Build, motion: Motion, sample: int) -> Plan:
-    bodies = tuple(bodies_of(build.parts, motion, sample))
-    order = Order(bodies, motion, sample)
-    return Plan(bodies, tuple(alike(order.steps, bodies)), motion, sample, order)
 
 
 def sequence(steps: Sequence[Step], count: int, root: int | None = None) -> tuple[int, ...]:

@@ -20,6 +20,7 @@ ROOM = 0.5
 FREE = 40.0
 """Length over which the tube is looked at, mm: a clamp or the anvil of a press gets in."""
 
+
 @dataclass(frozen=True)
 class Support:
     """What bears a press.

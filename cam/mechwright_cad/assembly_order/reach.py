@@ -7,7 +7,6 @@ cut is one that has to come later.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -168,18 +167,14 @@ class Reach:
         near = (self._boxes[:, 0] < high).all(axis=1) & (low < self._boxes[:, 1]).all(axis=1)
         near[number] = False
         return frozenset(
-            k
-            for k in np.flatnonzero(near).tolist()
-            if (placed ^ self.standing.solid(k)).volume() > BITE
+            k for k in np.flatnonzero(near).tolist() if (placed ^ self.standing.solid(k)).volume() > BITE
         )
 
 
-@lru_cache(maxsize=256)
 def _cylinder(width: float, length: float) -> Manifold:
     return Manifold.cylinder(max(length, 1.0), width / 2, circular_segments=_CORNERS)
 
 
-@lru_cache(maxsize=256)
 def _sector(width: float, height: float, arm: float, turn: int) -> Manifold:
     """What the free arm sweeps, its upper side at a height over the head."""
     start = 2 * np.pi * turn / AZIMUTHS
@@ -189,7 +184,6 @@ def _sector(width: float, height: float, arm: float, turn: int) -> Manifold:
     return Manifold.extrude(flat, width).translate((0.0, 0.0, max(height - width, 0.0)))
 
 
-@lru_cache(maxsize=256)
 def _tilted(key: HexagonKey, deep: float, turn: int) -> Manifold:
     tool = _cylinder(key.width, key.long - deep)
     return tool.rotate((TILT, 0.0, 0.0)).rotate((0.0, 0.0, 360.0 * turn / AZIMUTHS))
