@@ -376,7 +376,7 @@ def test_points_on_a_triangle_leave_no_place_of_a_cell_without_one(angle):
     corners = np.array([(0.0, 0.0), (30.0, 0.0), (8.0, 14.0)]) * CELL
     turned = corners @ np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
     triangle = np.column_stack((turned, [1.0, 2.0, 3.0]))
-    points = np.concatenate(list(heights._covered(triangle[None])))
+    points = np.concatenate(list(heights._covered(triangle[None])), axis=1).T
     rng = np.random.default_rng(3)
     shares = rng.dirichlet((1.0, 1.0, 1.0), 400)
     apart = np.linalg.norm((shares @ turned)[:, None] - points[None, :, :2], axis=2).min(axis=1)

@@ -18,7 +18,7 @@ CROSSWISE = 3
 
 @dataclass(frozen=True)
 class Float:
-    """An axial play that is declared: its name, what is meant, mm, the parts in its loop, and what shims it."""
+    """A declared axial play: its name, what is meant, mm, the parts in its loop, and what shims it."""
 
     name: str
     least: float

@@ -35,7 +35,8 @@ class Ways:
         """Row (n,) of :meth:`barred` for one body, without the others where they have not been asked."""
         key = tuple(way.round(9).tolist())
         if key in self._known:
-            return self._known[key][number]
+            row: NDArray[np.bool_] = self._known[key][number]
+            return row
         if (number, key) not in self._rows:
             self._rows[number, key] = self._row(number, way)
         return self._rows[number, key]

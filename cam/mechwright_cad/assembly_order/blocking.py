@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import shapely
 from manifold3d import Manifold
+from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright_cad.assembly_order.barred import SKIN
@@ -22,7 +23,7 @@ BITE = 0.5
 
 
 class Blocking:
-    """Which body blocks which, for all bodies of an assembly where they stand; each question is asked once."""
+    """Which body blocks which, for all bodies of an assembly where they stand; each pair is asked once."""
 
     def __init__(self, bodies: Sequence[Body], standing: BodyLayers) -> None:
         self.bodies, self.standing = tuple(bodies), standing
@@ -34,8 +35,8 @@ class Blocking:
         """For each body those whose boxes are not farther away than the move."""
         boxes = np.array([self.standing.box(k) for k in range(len(self.bodies))])
         low, high = boxes[:, 0], boxes[:, 1]
-        near = (low[:, None] <= high[None] + MOVE).all(axis=2) & (low[None] <= high[:, None] + MOVE).all(
-            axis=2
+        near: NDArray[np.bool_] = np.logical_and(
+            (low[:, None] <= high[None] + MOVE).all(axis=2), (low[None] <= high[:, None] + MOVE).all(axis=2)
         )
         np.fill_diagonal(near, val=False)
         return [np.flatnonzero(row).tolist() for row in near]

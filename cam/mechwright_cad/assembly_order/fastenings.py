@@ -74,7 +74,7 @@ class Seats:
 
     def kind(self, match: Match) -> Kind | None:
         """What fastens a pin in its hole; None where it slides or turns."""
-        least, most = match.play
+        least, _ = match.play
         if match.inside.threaded:
             return "screwed"
         if is_coupling(self.bodies[match.hole].part):

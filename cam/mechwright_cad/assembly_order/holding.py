@@ -33,7 +33,7 @@ Way = tuple[float, float, float]
 UPRIGHT: tuple[Way, ...] = ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0))
 
 STRAIGHT = 0.999
-"""Greatest coordinate of a way from which on an assembly is turned to have it downwards: it lies on a face."""
+"""Greatest coordinate of a way from which on an assembly is turned to have it downwards."""
 
 FOOTING = 0.25
 """Share of the box round the ground that the feet under it span at least: on less it topples."""

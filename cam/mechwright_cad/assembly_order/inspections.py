@@ -72,8 +72,8 @@ def _falling(order: "Order", step: "Step") -> "Iterator[tuple[tuple[str, ...], F
         Finding.warning(
             "assembly.held",
             "",
-            f"{_names(order, named)} are held by nothing when {_names(order, step.moved)} comes; one part can "
-            "be held by hand",
+            f"nothing holds {_names(order, named)} once {_names(order, step.moved[:1])} is there; a fitter "
+            "holds one part by hand",
             len(falling),
             1,
             "",
@@ -99,7 +99,7 @@ def _unreached(order: "Order", step: "Step") -> "Iterator[tuple[tuple[str, ...],
             Finding.warning(
                 "assembly.reach",
                 "",
-                f"no tool gets to {name} when it comes: {_names(order, met) or 'what is there'} stands in its way",
+                f"no tool gets to {name} at its step: {_names(order, met) or 'its own part'} is in the way",
                 remedy="leave room for a key over its head, or put the screw in from the other side",
             ),
         )
@@ -120,14 +120,14 @@ def _unsupported(order: "Order", step: "Step") -> "Iterator[tuple[tuple[str, ...
                     remedy="press them together before, or fasten the pin first",
                 ),
             )
-    for bush, pin in filled(order, step):
-        names = [order.bodies[k].part.name for k in (bush, pin)]
+    for pair in filled(order, step):
+        bush, inside = (order.bodies[k].part.name for k in pair)
         yield (
-            ("mandrel", *names),
+            ("mandrel", bush, inside),
             Finding.warning(
                 "assembly.press",
                 "",
-                f"{names[0]} is pressed in while {names[1]} is in its bore: no mandrel gets through",
+                f"{bush} is pressed in while {inside} is in its bore: no mandrel gets through",
                 remedy="let the pin come from the other side, or take a pin without a head",
             ),
         )

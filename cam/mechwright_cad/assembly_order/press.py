@@ -28,7 +28,7 @@ class Support:
     Parameters
     ----------
     bears
-        ``tube``: a support under the hole; ``stack``: what lies under it; ``end``: the other end of the shaft.
+        ``tube``: a support under the hole; ``stack``: what lies there; ``end``: the shaft's other end.
     packings
         What has to be put between: above which body, by number, and how thick, mm.
     holds

@@ -119,7 +119,11 @@ class Reach:
         except DesignError:
             key = None
         if key is not None:
-            for tool, up, arm in (("key", key.short, key.long), ("long key", key.long, key.short)):
+            arms: tuple[tuple[Tool, float, float], ...] = (
+                ("key", key.short, key.long),
+                ("long key", key.long, key.short),
+            )
+            for tool, up, arm in arms:
                 column = self._cut(number, _cylinder(key.width, up - deep), frame, top)
                 for turn in range(AZIMUTHS):
                     swing = _sector(key.width, up - deep, arm, turn)

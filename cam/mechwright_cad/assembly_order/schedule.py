@@ -59,48 +59,64 @@ def scheduled(
     units: Sequence[Coming], start: Sequence[int], root: int, before: NDArray[np.bool_], holding: Holding
 ) -> Iterator[Placed]:
     """The units in their order, onto bodies that are there, of which ``root`` lies on the bench."""
-    there, left, down = frozenset(start), list(range(len(units))), UPRIGHT[0]
-    last: Coming | None = None
-    hand: tuple[int, ...] = ()
-    while left:
-        loose = len(holding.loose(there, root))
-
-        def worth(k: int) -> tuple[object, ...]:
-            unit = units[k]
-            after = there.union(unit.bodies)
-            lies, falling = holding.down(after, root, down, unit.way)
-            steps = 0
-            if falling:
-                others = [m for m in left if m != k]
-                steps = _steps_until_held(units, others, before, holding, (after, root, lies))
-            copy = not falling and last is not None and (last.alike, last.way) == (unit.alike, unit.way)
-            fastens = not copy and len(unit.bodies) == 1 and unit.bodies[0] in holding.fastened
-            helps = fastens and len(holding.loose(after, root)) < loose
-            return len(falling) > 1, steps if hand else max(steps - 1, 0), not copy, not helps, k
-
-        unit = units[min((k for k in left if not before[left, k].any()), key=worth)]
-        there = there.union(unit.bodies)
-        down, falling = holding.down(there, root, down, unit.way)
-        hand = tuple(sorted(k for one in falling for k in one))
-        left = [k for k in left if units[k] is not unit]
-        last = unit
-        yield Placed(unit, down, hand)
+    bench = _Bench(units, root, before, holding, frozenset(start))
+    while bench.left:
+        yield bench.put(min(bench.ready(), key=bench.worth))
 
 
-def _steps_until_held(
-    units: Sequence[Coming],
-    left: Sequence[int],
-    before: NDArray[np.bool_],
-    holding: Holding,
-    state: tuple[frozenset[int], int, Way],
-) -> int:
-    """After how many more units nothing falls any more, at best; one more than there are if never."""
-    there, root, down = state
-    least = len(left) + 1
-    for k in left:
-        needed = [m for m in left if m == k or before[m, k]]
-        if len(needed) < least:
-            after = there.union(*(units[m].bodies for m in needed))
-            if not holding.falling(after, root, down):
-                least = len(needed)
-    return least
+class _Bench:
+    """What is there already, how it lies, what is held by hand, and what is left to come."""
+
+    def __init__(
+        self,
+        units: Sequence[Coming],
+        root: int,
+        before: NDArray[np.bool_],
+        holding: Holding,
+        there: frozenset[int],
+    ) -> None:
+        self.units, self.root, self.before, self.holding = units, root, before, holding
+        self.there, self.left = there, list(range(len(units)))
+        self._down = UPRIGHT[0]
+        self._last: Coming | None = None
+        self._hand: tuple[int, ...] = ()
+        self._loose = 0
+
+    def ready(self) -> list[int]:
+        """Units that nothing which is left has to precede."""
+        return [k for k in self.left if not self.before[self.left, k].any()]
+
+    def put(self, k: int) -> Placed:
+        """A unit is put in its place."""
+        unit = self.units[k]
+        self.there = self.there.union(unit.bodies)
+        self._down, falling = self.holding.down(self.there, self.root, self._down, unit.way)
+        self._hand = tuple(sorted(number for one in falling for number in one))
+        self._loose = len(self.holding.loose(self.there, self.root))
+        self._last = unit
+        self.left.remove(k)
+        return Placed(unit, self._down, self._hand)
+
+    def worth(self, k: int) -> tuple[object, ...]:
+        """How good a unit is as the next one; the least is the best."""
+        unit = self.units[k]
+        after = self.there.union(unit.bodies)
+        lies, falling = self.holding.down(after, self.root, self._down, unit.way)
+        steps = self._steps_until_held(k, after, lies) if falling else 0
+        last = self._last
+        copy = not falling and last is not None and (last.alike, last.way) == (unit.alike, unit.way)
+        fastens = not copy and len(unit.bodies) == 1 and unit.bodies[0] in self.holding.fastened
+        helps = fastens and len(self.holding.loose(after, self.root)) < self._loose
+        return len(falling) > 1, steps if self._hand else max(steps - 1, 0), not copy, not helps, k
+
+    def _steps_until_held(self, chosen: int, there: frozenset[int], down: Way) -> int:
+        """After how many more units nothing falls any more, at best; one more than there are if never."""
+        left = [k for k in self.left if k != chosen]
+        least = len(left) + 1
+        for k in left:
+            needed = [m for m in left if m == k or self.before[m, k]]
+            if len(needed) < least:
+                after = there.union(*(self.units[m].bodies for m in needed))
+                if not self.holding.falling(after, self.root, down):
+                    least = len(needed)
+        return least
