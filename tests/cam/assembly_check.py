@@ -28,7 +28,7 @@ def loose(plan: Plan) -> list[int]:
     order, found = plan.order, []
     for step in order.steps:
         there = frozenset((*step.onto, *step.moved))
-        found.append(sum(map(len, order.holding.loose(there, step.root))))
+        found.append(sum(map(len, order.holding.unretained(there, step.root))))
     return found
 
 

@@ -4,8 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from by_night import by_night
-from cam.assembly_check import badly_pressed, falling, faults, loose, unreached
+from cam.assembly_check import badly_pressed, faults
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -18,17 +17,15 @@ from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline, circle
-from mechwright.pipeline import Build, Wanted
-from mechwright.plugins.host import host
 from mechwright.standards.bushes import bush_for
 from mechwright.standards.circlips import shaft_circlip
 from mechwright.standards.hexagon_keys import bit_diameter, hexagon_key
 from mechwright.standards.screws import screw
 from mechwright_cad.assembly_guide.adjusting import declared_floats
 from mechwright_cad.assembly_guide.handling import whence
-from mechwright_cad.assembly_order.inspections import order_findings
-from mechwright_cad.assembly_order.order import Order, Step
-from mechwright_cad.assembly_order.plan import Plan, alike, plan_of
+from mechwright_cad.assembly_order.levels import Step
+from mechwright_cad.assembly_order.order import Order
+from mechwright_cad.assembly_order.plan import Plan, alike
 from mechwright_cad.assembly_order.press import presses, support
 from mechwright_cad.assembly_order.reach import Reach
 from mechwright_cad.assembly_order.schedule import precedence
@@ -76,7 +73,7 @@ def falls(order, *names, down=DOWN):
 
 def loosely(order, *names):
     of = numbers(order)
-    found = order.holding.loose(frozenset(of[name] for name in ("base", *names)), of["base"])
+    found = order.holding.unretained(frozenset(of[name] for name in ("base", *names)), of["base"])
     return [order.bodies[min(unit)].part.name for unit in found]
 
 
@@ -332,72 +329,3 @@ def test_floats_that_are_declared_are_read_and_nothing_is_made_up():
     assert one.parts == {"shaft-2", "plate"}
     assert one.shims == "DIN 988 - 20 x 28, in the upper seat"
     assert declared_floats([]) == []
-
-
-MACHINES = [
-    pytest.param(name, marks=by_night)
-    for name in (
-        "elliptic-pair-machine",
-        "figure-eight-machine",
-        "four-bar-machine",
-        "slider-crank-machine",
-        "geneva-machine",
-        "spur-gears-machine",
-        "five-bar-machine",
-    )
-]
-
-SPHERICAL = {
-    "spherical-five-bar-machine": {"pinion", "spacer-a0"},
-    "spherical-machine": {"rocker", "coupler"},
-    "spherical-double-crank-machine": {"base", "base-plate", "crank", "spacer-a0"},
-}
-"""Parts that two hands have to hold at one step: their ways leave no other order."""
-
-
-@pytest.mark.parametrize("name", ["crank-rocker-finished", *MACHINES])
-def test_parts_are_held_when_needed_screws_reached_and_presses_supported(name):
-    with Build(EXAMPLES / f"{name}.toml", host(), Wanted("model")) as build:
-        found = plan_of(build)
-    assert max(falling(found)) <= 1
-    assert falling(found)[-1] == 0
-    assert list(unreached(found)) == []
-    assert list(badly_pressed(found)) == []
-    assert faults(found) == []
-    assert [one for one in order_findings(found) if one.severity != "note"] == []
-
-
-@by_night
-@pytest.mark.parametrize("name", sorted(one.stem for one in (EXAMPLES / "chains").glob("*.toml")))
-def test_screws_of_a_chain_are_reached_and_its_presses_supported(name):
-    with Build(EXAMPLES / "chains" / f"{name}.toml", host(), Wanted("model")) as build:
-        found = plan_of(build)
-    assert [one for one in order_findings(found, framed=False) if one.severity != "note"] == []
-
-
-@by_night
-@pytest.mark.parametrize("name", list(SPHERICAL))
-def test_spherical_machines_ask_for_more_hands_only_where_it_is_said(name):
-    with Build(EXAMPLES / f"{name}.toml", host(), Wanted("model")) as build:
-        found = plan_of(build)
-    assert list(unreached(found)) == []
-    assert list(badly_pressed(found)) == []
-    warned = [one for one in order_findings(found) if one.severity != "note"]
-    assert {one.code for one in warned} == {"assembly.held"}
-    named = {
-        word
-        for one in warned
-        for word in one.message.removeprefix("nothing holds ").split(" once ")[0].split(" and ")
-    }
-    assert named <= SPHERICAL[name]
-
-
-@by_night
-def test_pillars_of_a_machine_are_fast_before_its_shafts_come():
-    with Build(EXAMPLES / "elliptic-pair-machine.toml", host(), Wanted("model")) as build:
-        found = plan_of(build)
-    counts = loose(found)
-    names = [{found.bodies[k].part.name for k in step.moved} for step in found.order.steps]
-    first = next(k for k, those in enumerate(names) if any(n.startswith("shaft-") for n in those))
-    assert counts[first - 1] == 0
-    assert max(counts[:first]) <= 4

@@ -7,7 +7,7 @@ from typing import Any
 
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_order.groups import is_bearing
-from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
 from mechwright_cad.bodies import is_coupling, is_motor
 from mechwright_cad.contacts.rounds import Match
@@ -63,7 +63,7 @@ class Adjusting:
             if not {*motors, *couplings} <= there or not motors or not couplings:
                 continue
             without = there.difference(couplings)
-            if not any(motors[0] in unit for unit in order.holding.loose(without, step.root)):
+            if not any(motors[0] in unit for unit in order.holding.unretained(without, step.root)):
                 return self.plan.steps.index(step) + 1
         return None
 

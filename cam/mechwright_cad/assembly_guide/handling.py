@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from mechwright_cad.assembly_order.holding import UPRIGHT, Way
 from mechwright_cad.assembly_order.layers import PARALLEL
-from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
 
 LEVEL_FROM = 67.5
@@ -45,7 +45,7 @@ class Handling:
         place = self.plan.steps.index(step)
         return place + 2 if step.hand and len(step.moved) > 1 and self._all_alike(step.moved) else None
 
-    def held(self, step: Step) -> tuple[Sequence[int], int | None]:
+    def in_hand(self, step: Step) -> tuple[Sequence[int], int | None]:
         """Bodies, one of each unit, that are held by hand from this step on, and until which step."""
         before = self._before(step)
         units = self.plan.order.holding.units(frozenset((*step.onto, *step.moved)))

@@ -4,7 +4,8 @@ import math
 from collections.abc import Callable
 
 from mechwright_cad.assembly_order.groups import is_bearing
-from mechwright_cad.assembly_order.order import Order, Step
+from mechwright_cad.assembly_order.levels import Step
+from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.assembly_order.press import FREE, ROOM, support
 from mechwright_cad.contacts.rounds import Match, rounds_of
 

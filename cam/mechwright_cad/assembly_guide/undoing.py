@@ -10,7 +10,7 @@ def undone(plan: Plan, name: Callable[[int], str]) -> list[str]:
     """Sentences on seats that do not come apart as they went together; none where all do."""
     order = plan.order
     found = [
-        f"{name(one.pin)} cannot be driven out of {name(one.hole)}: its hole is blind, and nothing stands out."
+        f"{name(one.pin)} cannot be driven out of {name(one.hole)}: its hole is blind and nothing stands out."
         for one in locked(order)
     ]
     found += [

@@ -11,7 +11,7 @@ from mechwright_cad.assembly_guide.pressing import BENCH, pressed
 from mechwright_cad.assembly_guide.tools import fitted, screwed
 from mechwright_cad.assembly_order.fastenings import ROOM, needs_compound
 from mechwright_cad.assembly_order.groups import is_bearing, rigid
-from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
 from mechwright_cad.assembly_order.reach import Tool
 from mechwright_cad.bodies import is_coupling
@@ -75,7 +75,7 @@ class Words:
         plan = self.plan
         found = matches(plan.bodies, plan.sample, step.moved, step.onto)
         turn = self._handling.turn(step)
-        said = [*([turn] if turn else []), self._moves(step, found), *self._held_by_hand(step)]
+        said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
         said += dict.fromkeys(self._fits(match, step) for match in found if self._fast(match))
         new = [k for k in step.moved if self._first[k] is step]
         said += dict.fromkeys(filter(None, (self._screwed(k, self._columns.later(k), step) for k in new)))
@@ -98,13 +98,13 @@ class Words:
         said += self._adjusting.run_in(step)
         return said
 
-    def _held_by_hand(self, step: Step) -> Iterator[str]:
+    def _by_hand(self, step: Step) -> Iterator[str]:
         both = self._handling.in_turn(step)
         if both is not None:
             screws = self.names(self.plan.steps[both - 1].moved[:1])
             yield f"Take one after the other with {screws} of step {both}: hold it by hand until that is in."
             return
-        held, until = self._handling.held(step)
+        held, until = self._handling.in_hand(step)
         if held:
             yield f"Hold {self.names(held)} by hand{f' until step {until} is done' if until else ''}."
         if self._handling.stands(step):

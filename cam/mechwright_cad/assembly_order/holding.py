@@ -111,7 +111,7 @@ class Holding:
                 return tried, found
         return down, falling
 
-    def loose(self, there: frozenset[int], root: int) -> list[Unit]:
+    def unretained(self, there: frozenset[int], root: int) -> list[Unit]:
         """Units that are not held: some way is free to each of them."""
         units = self.units(there)
         ground = units[root]

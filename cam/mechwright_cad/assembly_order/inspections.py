@@ -8,7 +8,8 @@ from mechwright.pipeline import Build, Inspection
 from mechwright.pipeline.work import SOLIDS
 
 if TYPE_CHECKING:
-    from mechwright_cad.assembly_order.order import Order, Step
+    from mechwright_cad.assembly_order.levels import Step
+    from mechwright_cad.assembly_order.order import Order
     from mechwright_cad.assembly_order.plan import Plan
 
 

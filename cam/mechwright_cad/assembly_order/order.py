@@ -22,10 +22,11 @@ from mechwright_cad.assembly_order.barred import Ways
 from mechwright_cad.assembly_order.blocking import Blocking
 from mechwright_cad.assembly_order.fastenings import Seats, fastenings
 from mechwright_cad.assembly_order.groups import BodyLayers, bonds, connected, rigid
-from mechwright_cad.assembly_order.holding import UPRIGHT, Holding, Way
+from mechwright_cad.assembly_order.holding import Holding, Way
 from mechwright_cad.assembly_order.layers import LEVEL, PARALLEL, UP, axis_of, own_layers
+from mechwright_cad.assembly_order.levels import Constraints, Level, Step, steps_of
 from mechwright_cad.assembly_order.reach import Reach
-from mechwright_cad.assembly_order.schedule import Coming, precedence, scheduled
+from mechwright_cad.assembly_order.schedule import Coming
 from mechwright_cad.bodies import Body
 from mechwright_cad.contacts.screw_joints import ScrewJoint, joints_of
 
@@ -40,58 +41,6 @@ SHARE = 0.1
 
 Units = Sequence[tuple[int, ...]]
 """Sets of bodies, by number."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """What is done at once.
-
-    Parameters
-    ----------
-    moved
-        Numbers of the bodies that go to their seats; with no ``way``, all that have to be brought together
-        otherwise.
-    onto
-        Numbers of those that stand there already, in the same group.
-    way
-        Unit vector along which they go, from outside to the seat.
-    down
-        Unit vector that looks to the floor meanwhile: an assembly is turned over where that holds its bodies.
-    hand
-        Numbers of bodies that have to be held by hand after the step.
-    root
-        What the group goes onto; -1 where there is no way.
-    """
-
-    moved: tuple[int, ...]
-    onto: tuple[int, ...]
-    way: Way | None
-    down: Way = UPRIGHT[0]
-    hand: tuple[int, ...] = ()
-    root: int = -1
-
-
-@dataclass(frozen=True)
-class _Level:
-    """What a group begins with, and what comes onto that, each with what it is made of.
-
-    More than one body at the start have no straight way to each other.
-    """
-
-    start: tuple[int, ...]
-    units: "tuple[tuple[Coming, _Level], ...]"
-
-    @property
-    def has_ways(self) -> bool:
-        """Whether a straight way leads each body to its seat."""
-        return len(self.start) < 2 and all(inner.has_ways for _, inner in self.units)
-
-    @property
-    def ways(self) -> "Iterator[tuple[int, Way]]":
-        """Each body with each way along which it goes."""
-        for unit, inner in self.units:
-            yield from ((k, unit.way) for k in unit.bodies)
-            yield from inner.ways
 
 
 @dataclass(frozen=True)
@@ -115,10 +64,13 @@ class Order:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """All steps; those of a group stand before the step in which it goes to its place."""
-        return tuple(self._steps_of(self._whole))
+        given = Constraints(
+            self.table, self.holding, self.seats, self.reach, self.joints, self._clamped, self._root
+        )
+        return tuple(steps_of(given, self._whole))
 
     @cached_property
-    def _whole(self) -> _Level:
+    def _whole(self) -> Level:
         return self._together(tuple(range(len(self.bodies))))
 
     @property
@@ -255,7 +207,7 @@ class Order:
         return table
 
     def _root(self, members: tuple[int, ...]) -> int:
-        """What the others are put on: the base, or of the lowest group the one that touches most."""
+        """What members are put on: the base, or of the lowest group the one that touches most."""
         if self._base in members:
             return self._base
         groups = connected(members, self._bonds)
@@ -266,9 +218,9 @@ class Order:
         touched = {k: sum(k in bond and set(bond) <= set(lowest) for bond in self._bonds) for k in lowest}
         return max(lowest, key=lambda k: (touched[k], self._sizes[k], -k))
 
-    def _together(self, members: tuple[int, ...]) -> _Level:
+    def _together(self, members: tuple[int, ...]) -> Level:
         """What members are put together from: taken apart as far as it goes, then the other way round."""
-        units: list[tuple[Coming, _Level]] = []
+        units: list[tuple[Coming, Level]] = []
         rest = members
         while len(rest) > 1:
             leaving = self._leaving(rest)
@@ -278,52 +230,7 @@ class Order:
             x, y, z = (-leaving.way + 0.0).round(9).tolist()
             alike = self.bodies[leaving.bodies[0]].part.name if len(leaving.bodies) == 1 else ""
             units.append((Coming(leaving.bodies, (x, y, z), alike), self._together(leaving.bodies)))
-        return _Level(rest, tuple(reversed(units)))
-
-    def _steps_of(self, level: _Level) -> Iterator[Step]:
-        """The steps of a level, each unit after those that make it."""
-        if len(level.start) > 1:
-            yield Step(level.start, (), None)
-        units = [unit for unit, _ in level.units]
-        inner = {unit.bodies: one for unit, one in level.units}
-        there: list[int] = list(level.start)
-        root = self._root(level.start)
-        for placed in scheduled(units, level.start, root, self._before(units), self.holding):
-            unit = placed.of
-            yield from self._steps_of(inner[unit.bodies])
-            yield Step(unit.bodies, tuple(sorted(there)), unit.way, placed.down, placed.hand, root)
-            there += unit.bodies
-
-    def _before(self, units: Sequence[Coming]) -> NDArray[np.bool_]:
-        """Which unit comes before which: by what bars its way, then by what fastens it and by its tool."""
-        count = len(units)
-        barred = np.zeros((count, count), dtype=bool)
-        for i, one in enumerate(units):
-            met = np.any([self.table.row(k, -np.array(one.way)) for k in one.bodies], axis=0)
-            barred[i] = [i != j and bool(met[list(two.bodies)].any()) for j, two in enumerate(units)]
-        of = {k: i for i, unit in enumerate(units) for k in unit.bodies}
-        wishes = [(of[one], of[two]) for one, two in self._wishes(units) if one in of and two in of]
-        return precedence(count, barred, wishes)
-
-    def _wishes(self, units: Sequence[Coming]) -> Iterator[tuple[int, int]]:
-        """Pairs of bodies: the first should be there before the second comes."""
-        for joint in self.joints:
-            if joint.what.head:
-                held = (joint.holder, *(k for k, _ in joint.clamped))
-                yield from ((k, joint.screw) for k in held)
-        yield from ((int(i), int(j)) for i, j in np.argwhere(self._clamped))
-        alone = {unit.bodies[0] for unit in units if len(unit.bodies) == 1}
-        tight = [one.joins for one in self.holding.fastenings if one.kind in {"pressed", "bonded"}]
-        fixed = alone & frozenset[int]().union(*tight)
-        bushes = {k for k in fixed if self.seats.is_bush(k)}
-        running = [one for one in self.seats.matches if self.seats.kind(one) is None]
-        # A mandrel goes through a bush that is pressed in; a pin is pressed in before anything runs on it.
-        yield from ((one.hole, one.pin) for one in running if one.hole in bushes)
-        yield from ((one.pin, one.hole) for one in running if one.pin in fixed)
-        for unit in units:
-            if len(unit.bodies) == 1 and self.reach.needs_tool(unit.bodies[0]):
-                (k,) = unit.bodies
-                yield from ((k, other) for other in self.reach.always_in_the_way(k, np.array(unit.way)))
+        return Level(rest, tuple(reversed(units)))
 
     def _leaving(self, members: tuple[int, ...]) -> _Leaving | None:
         """What leaves first: a shaft as one with the rings that it holds, a link by itself, if it can."""

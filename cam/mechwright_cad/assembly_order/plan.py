@@ -8,7 +8,8 @@ import numpy as np
 from mechwright.contracts.motion import Motion
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright.pipeline import Build
-from mechwright_cad.assembly_order.order import Order, Step
+from mechwright_cad.assembly_order.levels import Step
+from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.bodies import Body, bodies_of
 from mechwright_cad.contacts.screw_joints import ScrewJoint
 

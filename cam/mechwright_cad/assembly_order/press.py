@@ -8,7 +8,8 @@ import numpy as np
 from manifold3d import Manifold
 
 from mechwright_cad.assembly_order.layers import LEVEL, frame_of
-from mechwright_cad.assembly_order.order import Order, Step
+from mechwright_cad.assembly_order.levels import Step
+from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.contacts.rounds import Match
 
 WALL = 3.0
@@ -54,7 +55,7 @@ def presses(order: Order, step: Step) -> Iterator[Match]:
 
 def support(order: Order, step: Step, match: Match) -> Support:
     """What bears a press at a step."""
-    held = _held(order, step)
+    held = _retained(order, step)
     if match.hole in step.moved:
         return Support("end", (), match.pin in held)
     below = _below(order, step, match)
@@ -95,8 +96,8 @@ def filled(order: Order, step: Step) -> Iterator[tuple[int, int]]:
             yield from ((bush, pin) for pin in inside)
 
 
-def _held(order: Order, step: Step) -> frozenset[int]:
+def _retained(order: Order, step: Step) -> frozenset[int]:
     """What a press may push: the ground, and what is held before the step."""
     there = frozenset(step.onto)
-    loose = order.holding.loose(there, step.root)
+    loose = order.holding.unretained(there, step.root)
     return there - frozenset[int]().union(*loose)

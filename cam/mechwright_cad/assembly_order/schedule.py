@@ -80,7 +80,7 @@ class _Bench:
         self._down = UPRIGHT[0]
         self._last: Coming | None = None
         self._hand: tuple[int, ...] = ()
-        self._loose = 0
+        self._unretained = 0
 
     def ready(self) -> list[int]:
         """Units that nothing which is left has to precede."""
@@ -92,7 +92,7 @@ class _Bench:
         self.there = self.there.union(unit.bodies)
         self._down, falling = self.holding.down(self.there, self.root, self._down, unit.way)
         self._hand = tuple(sorted(number for one in falling for number in one))
-        self._loose = len(self.holding.loose(self.there, self.root))
+        self._unretained = len(self.holding.unretained(self.there, self.root))
         self._last = unit
         self.left.remove(k)
         return Placed(unit, self._down, self._hand)
@@ -102,14 +102,14 @@ class _Bench:
         unit = self.units[k]
         after = self.there.union(unit.bodies)
         lies, falling = self.holding.down(after, self.root, self._down, unit.way)
-        steps = self._steps_until_held(k, after, lies) if falling else 0
+        steps = self._steps_until_retained(k, after, lies) if falling else 0
         last = self._last
         copy = not falling and last is not None and (last.alike, last.way) == (unit.alike, unit.way)
         fastens = not copy and len(unit.bodies) == 1 and unit.bodies[0] in self.holding.fastened
-        helps = fastens and len(self.holding.loose(after, self.root)) < self._loose
+        helps = fastens and len(self.holding.unretained(after, self.root)) < self._unretained
         return len(falling) > 1, steps if self._hand else max(steps - 1, 0), not copy, not helps, k
 
-    def _steps_until_held(self, chosen: int, there: frozenset[int], down: Way) -> int:
+    def _steps_until_retained(self, chosen: int, there: frozenset[int], down: Way) -> int:
         """After how many more units nothing falls any more, at best; one more than there are if never."""
         left = [k for k in self.left if k != chosen]
         least = len(left) + 1
