@@ -69,17 +69,18 @@ def plan_of(build: Build) -> Plan:
     motion = build.design.solve(2)
     first = _order(build, motion, 0)
     if first.has_ways:
-        return _plan(first)
+        return planned(first)
     motion = build.design.solve(LOOKS)
     others = (_order(build, motion, sample) for sample in range(1, LOOKS))
-    return _plan(next((one for one in others if one.has_ways), first))
+    return planned(next((one for one in others if one.has_ways), first))
 
 
 def _order(build: Build, motion: Motion, sample: int) -> Order:
     return Order(bodies_of(build.parts, motion, sample), motion, sample)
 
 
-def _plan(order: Order) -> Plan:
+def planned(order: Order) -> Plan:
+    """The plan of an order."""
     return Plan(order.bodies, tuple(alike(order.steps, order)), order.motion, order.sample, order)
 
 
