@@ -49,7 +49,7 @@ def test_parts_are_held_when_needed_screws_reached_and_presses_supported(name):
 
 @by_night
 @pytest.mark.parametrize(
-    "name", sorted(one.stem for one in (EXAMPLES / "chains").glob("*s.toml") if "requirement" not in one.stem)
+    "name", sorted(one.stem for one in (EXAMPLES / "chains").glob("*.toml") if "requirement" not in one.stem)
 )
 def test_screws_of_a_chain_are_reached_and_its_presses_supported(name):
     with Build(EXAMPLES / "chains" / f"{name}.toml", host(), Wanted("model")) as build:
