@@ -1,6 +1,7 @@
 """A checker of an order of assembly: each part held when needed, each tool reaches, each press is supported.
 
-It replays the single steps, before copies are told of together, and gives what is wrong in words.
+It replays the single steps, before copies are told of together, and gives what is wrong in words. Steps
+without a straight way are for :mod:`cam.replay`.
 """
 
 from collections.abc import Iterator
@@ -17,7 +18,7 @@ MOST_BY_HAND = 1
 def falling(plan: Plan) -> list[int]:
     """After each step, how many units neither are held nor rest."""
     order, found = plan.order, []
-    for step in order.steps:
+    for step in (one for one in order.steps if one.way is not None):
         there = frozenset((*step.onto, *step.moved))
         found.append(len(order.holding.falling(there, step.root, step.down)))
     return found
@@ -26,7 +27,7 @@ def falling(plan: Plan) -> list[int]:
 def loose(plan: Plan) -> list[int]:
     """After each step, how many bodies are held by nothing: they rest, or fall."""
     order, found = plan.order, []
-    for step in order.steps:
+    for step in (one for one in order.steps if one.way is not None):
         there = frozenset((*step.onto, *step.moved))
         found.append(sum(map(len, order.holding.unretained(there, step.root))))
     return found

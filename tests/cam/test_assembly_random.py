@@ -54,6 +54,8 @@ def test_random_machines_go_together_with_one_pair_of_hands(name, tmp_path):
                 plan = plan_of(build)
         except MechwrightError:
             continue
+        if not plan.order.has_ways:
+            continue
         assert faults(plan) == [], path.read_text(encoding="utf-8")
         built += 1
         if built == COUNT:
