@@ -1,6 +1,7 @@
 """Ten random machines of each family that has an example: the checker of the order of assembly, by night.
 
-Numbers of the example are changed by up to a tenth; a design that is refused by name is drawn again.
+Numbers of the example are changed by up to a tenth; a design that is refused by name is drawn again. The
+train of the figure of eight is left out: its numbers fit each other, so that no other draw is a design.
 """
 
 import random
@@ -29,7 +30,6 @@ _NUMBER = re.compile(r"^(\w+ = )(\d+\.\d+|\d\d+)\s*$", re.MULTILINE)
     "name",
     [
         "elliptic-pair-machine",
-        "figure-eight-machine",
         "four-bar-machine",
         "slider-crank-machine",
         "geneva-machine",
