@@ -3,6 +3,7 @@
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl
 from mechwright_cad.assembly_guide.page import AssemblyGuide
+from mechwright_cad.assembly_order.inspections import AssemblyOrder
 from mechwright_cad.bill.inspections import SoldPlates
 from mechwright_cad.bill.page import BillOfMaterials
 from mechwright_cad.contacts.inspections import Contact, ScrewLengths
@@ -38,6 +39,7 @@ def mechwright_register() -> list[type[Plugin]]:
         Interference,
         ScrewLengths,
         Contact,
+        AssemblyOrder,
         PartSolid,
         PartPicture,
         Assembled,

@@ -10,7 +10,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from mechwright.contracts.holes import joined
-from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.bodies import Body
 from mechwright_cad.interference.surface import surface_of
 

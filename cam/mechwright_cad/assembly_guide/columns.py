@@ -41,15 +41,22 @@ class Columns:
             steps = seen.get(axis, {})
             last = max(steps.values(), default=0)
             early = (k for k, step in steps.items() if step < last and _headed(plan.bodies[k].part))
-            self._tight |= {k: last for k in early if self._reached(k, last)}
+            self._tight |= dict.fromkeys(early, last)
+        never = {self._alike(k) for k, last in self._tight.items() if not self._reached(k, last)}
+        self._tight = {k: last for k, last in self._tight.items() if self._alike(k) not in never}
+
+    def _alike(self, k: int) -> tuple[int, str]:
+        """Screws that a step puts in together are drawn tight together."""
+        return self.put[k], self.plan.bodies[k].part.name
 
     def _reached(self, k: int, last: int) -> bool:
-        """Whether a key still gets to a screw in a later step: nothing that came since is over its head."""
+        """Whether a tool still gets to a screw in a later step."""
         way = self.plan.steps[self.put[k] - 1].way
-        if way is None:
-            return False
-        barred = self.plan.order.table.barred(-np.array(way))[k]
-        return not any(barred[m] for m, number in self.put.items() if self.put[k] < number <= last)
+        return way is not None and self.plan.order.reach.tool(k, np.array(way), self.there(last)) is not None
+
+    def there(self, last: int) -> frozenset[int]:
+        """All bodies that have come up to a step."""
+        return frozenset(k for k, number in self.put.items() if number <= last) | {*self.plan.sequence[:1]}
 
     def _axis(self, k: int) -> tuple[float, float]:
         body = self.plan.bodies[k]

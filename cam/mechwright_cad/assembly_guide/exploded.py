@@ -6,7 +6,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright_cad.assembly_order.layers import frame_of, mesh_points
-from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.bodies import Body
 
 GAP, SHARE = 6.0, 0.04

@@ -11,7 +11,7 @@ from mechwright.output.svg import element, number, picture, text
 from mechwright_cad.assembly_guide.balloons import APART, RADIUS, balloons
 from mechwright_cad.assembly_guide.exploded import Boxes, Shifts, exploded, lifted
 from mechwright_cad.assembly_guide.view import EYE, Lines, View
-from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
 
 SIZE = 120.0

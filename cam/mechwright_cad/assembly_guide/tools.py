@@ -4,10 +4,22 @@ from collections.abc import Callable
 
 from mechwright.contracts.part import Part
 from mechwright.mechanics.strength.tightening import torque_text
+from mechwright.standards.hexagon_keys import BIT_LENGTH
+from mechwright_cad.assembly_order.reach import Tool
 from mechwright_cad.bodies import is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint, screw_of
 
 LOCKER = "thread locker of medium strength"
+
+
+_TOOLS: dict[Tool | None, str] = {
+    "key": "hexagon key {:g} mm",
+    "long key": "hexagon key {:g} mm, its long arm in the screw",
+    "bit": f"hexagon bit {{:g}} mm, {BIT_LENGTH:g} mm long",
+    "ball end": "hexagon key {:g} mm with a ball end, tilted",
+    None: "none that is known gets to it; hexagon {:g} mm",
+}
+"""Access to a screw to the words for its tool."""
 
 
 def screwed(
@@ -15,6 +27,7 @@ def screwed(
     joint: ScrewJoint | None = None,
     name: Callable[[int], str] = str,
     later: int | None = None,
+    reached: Tool | None = "key",
 ) -> str:
     """Tool and torque of a screw; empty for what is none that is known.
 
@@ -26,11 +39,13 @@ def screwed(
         Gives the words for a body by its number.
     later
         The number of the step in which it is drawn tight, where that is not its own.
+    reached
+        The tool that gets to it; None if none does.
     """
     screw = screw_of(part)
     if screw is None:
         return ""
-    tool = f"Tool: hexagon key {screw.key:g} mm"
+    tool = f"Tool: {_TOOLS[reached].format(screw.key)}"
     if not screw.head:
         return f"{tool}. {LOCKER.capitalize()}."
     found = None if joint is None else joint.tightening
@@ -60,9 +75,9 @@ def fitted(part: Part) -> str:
             kind = "outer" if standard == "DIN 471" else "inner"
             return f"Tool: pliers for {kind} circlips. Turn the ring in its groove to see that it sits."
         case "ISO 2795":
-            return "Press it in on a mandrel as thick as the shaft; never ream it, which closes its pores."
+            return "Never ream it, which closes its pores. Let it soak in oil before the shaft comes."
         case "ISO 15":
-            return "Press on the ring that sits tight, never through the balls."
+            return "Never press through the balls."
         case "ISO 8734" | "ISO 2338":
             return "Tool: soft hammer, drift a little thinner than the dowel."
     return ""

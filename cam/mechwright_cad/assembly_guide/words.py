@@ -6,18 +6,17 @@ import numpy as np
 
 from mechwright.contracts.bodies import rigid
 from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
+from mechwright_cad.assembly_guide.adjusting import Adjusting, Float
 from mechwright_cad.assembly_guide.columns import Columns
+from mechwright_cad.assembly_guide.handling import Handling, whence
+from mechwright_cad.assembly_guide.pressing import BENCH, pressed
 from mechwright_cad.assembly_guide.tools import fitted, screwed
+from mechwright_cad.assembly_order.fastenings import needs_compound
 from mechwright_cad.assembly_order.groups import is_bearing
-from mechwright_cad.assembly_order.order import Step
+from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
+from mechwright_cad.assembly_order.reach import Tool
 from mechwright_cad.bodies import is_coupling
-
-PRESS = "Press it in a vice or arbor press, with support right under the hole."
-"""How a press fit is made on the bench."""
-
-IN_PLACE = "Support that part right under the hole and draw the pin in with a clamp, or warm the part first."
-"""How one is made where no press gets in."""
 
 NEXT = 0.6
 """How much further than the nearest lies what also counts as met, mm: more than the gap between links."""
@@ -29,16 +28,14 @@ _TRIED = {
 }
 """Kind of a joint to what is tried of it."""
 
-LEVEL = 0.999
-"""Product of a way and the upright from which on it counts as upright, and as level below the rest of 1."""
-
 
 class Words:
     """The sentences of a plan, with the numbers of its items."""
 
-    def __init__(self, plan: Plan, numbers: dict[str, int]) -> None:
+    def __init__(self, plan: Plan, numbers: dict[str, int], floats: Sequence[Float] = ()) -> None:
         self.plan, self.numbers = plan, numbers
         self._heads = rigid(plan.motion)
+        self._handling, self._adjusting = Handling(plan), Adjusting(plan, floats)
         self._last = {k: step for step in plan.steps for k in step.moved}
         self._first = {k: step for step in reversed(plan.steps) for k in step.moved}
         self._last |= {plan.sequence[0]: plan.steps[0]} if plan.steps else {}
@@ -78,13 +75,17 @@ class Words:
             ]
         plan = self.plan
         found = matches(plan.bodies, plan.sample, step.moved, step.onto)
-        said = [self._moves(step, found)]
-        bench = len({self._head(k) for k in (*step.onto, *step.moved)}) == 1
-        press = PRESS if bench else IN_PLACE
-        said += dict.fromkeys(self._tight(match, press) for match in found if self._fast(match))
+        turn = self._handling.turn(step)
+        said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
+        said += dict.fromkeys(self._fits(match, step) for match in found if self._fast(match))
         new = [k for k in step.moved if self._first[k] is step]
-        said += dict.fromkeys(filter(None, (self._screwed(k, self._columns.later(k)) for k in new)))
+        said += dict.fromkeys(filter(None, (self._screwed(k, self._columns.later(k), step) for k in new)))
+        if not any(self._columns.later(k) for k in new):
+            said += self._adjusting.crosswise(step)
+        said += self._adjusting.aligning(step)
         said += self._drawn_tight(step)
+        if self._tight_in(step) and plan.order.seats.is_bush(step.moved[0]):
+            said.append(f"{BENCH} Use a mandrel as thick as the shaft, with a shoulder.")
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
         said += dict.fromkeys(
             mark.note
@@ -93,11 +94,41 @@ class Words:
             for mark in plan.bodies[k].part.marks
         )
         said += dict.fromkeys(self._tries(step, found))
+        said += self._adjusting.shafts(step, self.name)
+        said += self._adjusting.measured(step)
+        said += self._adjusting.run_in(step)
         return said
 
-    def _screwed(self, k: int, later: int | None = None) -> str:
-        joint = self.plan.joint(k)
-        return screwed(self.plan.bodies[k].part, joint, self.name, later)
+    def _by_hand(self, step: Step) -> Iterator[str]:
+        both = self._handling.in_turn(step)
+        if both is not None:
+            screws = self.names(self.plan.steps[both - 1].moved[:1])
+            yield f"Take one after the other with {screws} of step {both}: hold it by hand until that is in."
+            return
+        held, until = self._handling.in_hand(step)
+        if held:
+            yield f"Hold {self.names(held)} by hand{f' until step {until} is done' if until else ''}."
+        if self._handling.stands(step):
+            yield "Stand the whole on it."
+
+    def _fits(self, match: Match, step: Step) -> str:
+        """How tightly a pin goes into its hole, and how it is brought there."""
+        later = self._adjusting.waits(match)
+        if later is not None:
+            pin, hole = self.name(match.pin), self.name(match.hole)
+            return f"{pin} goes into {hole}: leave its screw there loose until step {later}."
+        order = self.plan.order
+        press = pressed(order, step, match, self.name) if order.seats.kind(match) == "pressed" else ""
+        ring = match.play[1] > 0 and any(is_bearing(self.plan.bodies[k]) for k in (match.pin, match.hole))
+        return f"{self._tight(match, press)} {press if ring else ''}".rstrip()
+
+    def _screwed(self, k: int, later: int | None = None, step: Step | None = None) -> str:
+        order, part = self.plan.order, self.plan.bodies[k].part
+        tool: Tool | None = "key"
+        if step is not None and step.way is not None and order.reach.needs_tool(k):
+            there = self._columns.there(later) if later else frozenset((*step.onto, *step.moved))
+            tool = order.reach.tool(k, np.array(step.way), there)
+        return screwed(part, self.plan.joint(k), self.name, later, tool)
 
     def _drawn_tight(self, step: Step) -> Iterator[str]:
         """The screws of a column that stands now."""
@@ -112,11 +143,16 @@ class Words:
                 f"Stand it on a flat plate, turn the shafts by hand, and draw {self.names(those)} of step "
                 f"{when} tight now, crosswise: {how}"
             )
+            yield "Go round twice: first to half of the torque, then to all of it."
 
     def _moves(self, step: Step, found: Sequence[Match]) -> str:
         group = len({self.plan.bodies[k].part.name for k in step.moved}) > 1
         what = f"Put the group of {self.name(self.main(step))}" if group else f"Put {self.names(step.moved)}"
-        near = dict.fromkeys(k for match in found for k in (match.pin, match.hole) if k in step.onto)
+        near: dict[int, None] = dict.fromkeys(
+            k for match in found for k in (match.pin, match.hole) if k in step.onto
+        )
+        tight = self._tight_in(step)
+        near = near or tight
         if not near and self._leans(step):
             touch = self.plan.order.standing.touch
             near = {k: None for k in step.onto if any(touch(k, m) for m in step.moved)}
@@ -124,8 +160,20 @@ class Words:
         where = self.names(tuple(touched or (max(step.onto, key=self.plan.order.size),)))
         pins = bool(found) and all(match.pin in step.moved for match in found) and not group
         turned = len(touched) > 0 and all(self.plan.bodies[k].part.turned for k in step.moved)
-        how = "into" if pins or (turned and self._leans(step)) else "onto" if touched else "beside"
+        how = "into" if pins or tight or (turned and self._leans(step)) else "onto" if touched else "beside"
         return f"{what} {how} {where}, {self.way(step)}."
+
+    def _tight_in(self, step: Step) -> dict[int, None]:
+        """Solids without declared holes into which a step presses a pin or a bush."""
+        order, new = self.plan.order, set(step.moved)
+        known = {frozenset((one.pin, one.hole)) for one in order.seats.matches}
+        found = [one.joins for one in order.holding.fastenings if one.kind == "pressed"]
+        return {
+            k: None
+            for pair in found
+            if pair not in known and len(new) == 1 and pair & new
+            for k in pair - new & set(step.onto)
+        }
 
     def _below(self, step: Step) -> dict[int, None]:
         """What a step would meet first if it went on."""
@@ -144,19 +192,11 @@ class Words:
     def way(self, step: Step) -> str:
         """In words whence it comes."""
         assert step.way is not None  # noqa: S101 - asked of steps with a way only
-        x, y, z = step.way
-        if abs(z) > LEVEL:
-            return "from above" if z < 0 else "from below: turn the whole over, or hold it up"
-        if abs(z) < 1 - LEVEL:
-            side = {(-1, 0): "the right", (1, 0): "the left", (0, -1): "the back", (0, 1): "the front"}
-            return f"from {side[(round(x), round(y))]}" if max(abs(x), abs(y)) > LEVEL else "from the side"
-        return "along the axis that the picture shows"
+        return whence(step.way)
 
     def _fast(self, match: Match) -> bool:
         """Whether a pin does not turn in its hole: no bearing does in its seat, no shaft in its coupling."""
-        one, two = (self.plan.bodies[k] for k in (match.pin, match.hole))
-        alike = self._head(match.pin) == self._head(match.hole)
-        return alike or any(is_bearing(body) or is_coupling(body.part) for body in (one, two))
+        return self.plan.order.seats.is_fast(match)
 
     def _tight(self, match: Match, press: str) -> str:
         pin, hole = self.name(match.pin), self.name(match.hole)
@@ -179,11 +219,7 @@ class Words:
 
     def _held(self, match: Match) -> str:
         """What keeps a pin from turning in a hole that it slides in."""
-        pin, hole = (self.plan.bodies[k].part for k in (match.pin, match.hole))
-        ring = any(part.turned is not None and part.turned.bore for part in (pin, hole))
-        keyed = pin.turned is not None and pin.turned.seats
-        screwed_down = pin.turned is not None and pin.turned.threads
-        if ring or keyed or screwed_down or pin.bought is not None or hole.bought is not None:
+        if not needs_compound(*(self.plan.bodies[k].part for k in (match.pin, match.hole))):
             return ""
         return " Nothing else holds it: secure it, with retaining compound if it stays for good."
 
@@ -210,6 +246,8 @@ class Words:
             if self._touch(step, pair):
                 self._said.add(pair)
                 yield f"Try: {joint.two} {_TRIED[joint.kind]} {joint.one or 'the frame'}, by hand."
+                if joint.kind == "gear":
+                    yield "Hold one gear and rock the other: some backlash is felt at four places of a turn."
 
     def _leans(self, step: Step) -> bool:
         """Whether what comes has no round faces that are known: it stands askew in the assembly."""

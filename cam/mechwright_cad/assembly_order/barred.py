@@ -27,6 +27,46 @@ class Ways:
     def __init__(self, bodies: Sequence[Body], sample: int) -> None:
         self.bodies, self.sample = tuple(bodies), sample
         self._known: dict[tuple[float, ...], NDArray[np.bool_]] = {}
+        self._rows: dict[tuple[int, tuple[float, ...]], NDArray[np.bool_]] = {}
+        self._boxes: tuple[tuple[float, ...], list[Array]] = ((), [])
+        self._seen: dict[int, Heights] = {}
+
+    def row(self, number: int, way: Array) -> NDArray[np.bool_]:
+        """Row (n,) of :meth:`barred` for one body, without the others where they have not been asked."""
+        key = tuple(way.round(9).tolist())
+        if key in self._known:
+            row: NDArray[np.bool_] = self._known[key][number]
+            return row
+        if (number, key) not in self._rows:
+            self._rows[number, key] = self._row(number, way)
+        return self._rows[number, key]
+
+    def _row(self, number: int, way: Array) -> NDArray[np.bool_]:
+        mine = layers_of(self.bodies[number], self.sample, way)
+        goes = self._passing(self.bodies[number], mine)
+        boxes = self._across(way)
+        row = np.zeros(len(self.bodies), dtype=bool)
+        for j, other in enumerate(self.bodies):
+            beside = (boxes[j][1, :2] <= boxes[number][0, :2]) | (boxes[number][1, :2] <= boxes[j][0, :2])
+            if j == number or beside.any() or boxes[j][1, 2] < boxes[number][0, 2]:
+                continue
+            theirs = layers_of(other, self.sample, way)
+            if mine is not None and theirs is not None:
+                row[j] = _bars(theirs, goes)
+            else:
+                for k in {number, j} - self._seen.keys():
+                    self._seen[k] = self._heights(self.bodies[k], way)
+                row[j] = self._seen[j].bars(self._seen[number].slim())
+        return row
+
+    def _across(self, way: Array) -> list[Array]:
+        """Boxes (2, 3) of all bodies in the frame of a way; what is known of another way is forgotten."""
+        key = tuple(way.round(9).tolist())
+        if self._boxes[0] != key:
+            self._seen = {}
+            points = [mesh_points(body, self.sample)[0] @ frame_of(way).T for body in self.bodies]
+            self._boxes = (key, [np.array((one.min(axis=0), one.max(axis=0))) for one in points])
+        return self._boxes[1]
 
     def barred(self, way: Array) -> NDArray[np.bool_]:
         """A table (n, n): whether body i, going along a way, would meet body j."""

@@ -27,14 +27,14 @@ class BodyLayers:
         found = [layers_of(body, sample, UP) for body in bodies]
         self._layers = [layers or (_box(body, sample),) for body, layers in zip(bodies, found, strict=True)]
         self._bodies, self._sample = bodies, sample
-        self._meshes: dict[int, Manifold | None] = {k: None for k, one in enumerate(found) if one is None}
+        self._meshes = frozenset(k for k, one in enumerate(found) if one is None)
+        self._solids: dict[int, Manifold] = {}
+        self._boxes = [_box_of(layers) for layers in self._layers]
         self._known: dict[tuple[int, int], bool] = {}
 
     def box(self, number: int) -> Array:
         """The least and the greatest corner (2, 3) of the box round a body, mm."""
-        layers = self._layers[number]
-        x0, y0, x1, y1 = shapely.total_bounds([layer.shape for layer in layers])
-        return np.array(((x0, y0, layers[0].low), (x1, y1, max(layer.high for layer in layers))))
+        return self._boxes[number]
 
     def touch(self, one: int, two: int) -> bool:
         """Whether two bodies, by number, are nearer than ``TOUCHING``; each pair is looked at once."""
@@ -60,20 +60,18 @@ class BodyLayers:
         if one in self._meshes or two in self._meshes:
             corners = np.concatenate([self.box(one), self.box(two)])
             reach = float(np.linalg.norm(np.ptp(corners, axis=0)))
-            return float(self._mesh(one).min_gap(self._mesh(two), reach))
+            return float(self.solid(one).min_gap(self.solid(two), reach))
         return min(
             math.hypot(max(a.low - b.high, b.low - a.high, 0.0), shapely.distance(a.shape, b.shape))
             for a in self._layers[one]
             for b in self._layers[two]
         )
 
-    def _mesh(self, number: int) -> Manifold:
-        known = self._meshes.get(number)
-        if known is None:
-            known = Surface(*mesh_points(self._bodies[number], self._sample)).manifold
-            if number in self._meshes:
-                self._meshes[number] = known
-        return known
+    def solid(self, number: int) -> Manifold:
+        """A body where it stands, as the library for booleans has it."""
+        if number not in self._solids:
+            self._solids[number] = Surface(*mesh_points(self._bodies[number], self._sample)).manifold
+        return self._solids[number]
 
     def _look(self, one: int, two: int, gap: float) -> bool:
         a, b = self.box(one), self.box(two)
@@ -82,7 +80,7 @@ class BodyLayers:
         if (a[0] > b[1] + gap).any() or (b[0] > a[1] + gap).any():
             return False
         if one in self._meshes or two in self._meshes:
-            first, second = self._mesh(one), self._mesh(two)
+            first, second = self.solid(one), self.solid(two)
             return bool(first.min_gap(second, 2 * gap) < gap)
         return any(
             first.low <= second.high + gap
@@ -91,6 +89,11 @@ class BodyLayers:
             for first in self._layers[one]
             for second in self._layers[two]
         )
+
+
+def _box_of(layers: Sequence[Layer]) -> Array:
+    x0, y0, x1, y1 = shapely.total_bounds([layer.shape for layer in layers])
+    return np.array(((x0, y0, layers[0].low), (x1, y1, max(layer.high for layer in layers))))
 
 
 def _box(body: Body, sample: int) -> Layer:

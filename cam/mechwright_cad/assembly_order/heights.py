@@ -50,10 +50,10 @@ class Heights:
         wide, high = (last - first + 1).tolist()
         least, most = np.full(wide * high, np.inf), np.full(wide * high, -np.inf)
         for at in _covered(corners):
-            place = np.floor(at[:, :2] / CELL).astype(int) - first
-            index = place[:, 0] * high + place[:, 1]
-            np.minimum.at(least, index, at[:, 2])
-            np.maximum.at(most, index, at[:, 2])
+            x, y = (np.floor(at[k] / CELL).astype(np.int64) - first[k] for k in (0, 1))
+            index = x * high + y
+            np.minimum.at(least, index, at[2])
+            np.maximum.at(most, index, at[2])
         return cls(least.reshape(wide, high), most.reshape(wide, high), (int(first[0]), int(first[1])))
 
     def slim(self) -> "Heights":
@@ -80,7 +80,7 @@ class Heights:
 
 
 def _covered(corners: Array) -> Iterator[Array]:
-    """Points (n, 3) on triangles (k, 3, 3), at least one in every place that a triangle covers well.
+    """Points (3, n) on triangles (k, 3, 3), at least one in every place that a triangle covers well.
 
     Rows parallel to the longest edge run up to the corner opposite; both counts are powers of two, so that
     many triangles are looked at in one go.
@@ -100,4 +100,4 @@ def _covered(corners: Array) -> Iterator[Array]:
         weights = np.stack(((1 - s) * (1 - t), s * (1 - t), t))
         some = corners[(counts == (columns, rows)).all(axis=1)]
         for part in np.array_split(some, max(1, len(some) * weights.shape[1] // _BATCH)):
-            yield np.einsum("kci,cw->kwi", part, weights).reshape(-1, 3)
+            yield (part.transpose(2, 0, 1).reshape(-1, 3) @ weights).reshape(3, -1)

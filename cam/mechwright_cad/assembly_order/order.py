@@ -21,9 +21,16 @@ from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.mechanics.mating.rounds import PARALLEL
 from mechwright_cad.assembly_order.barred import Ways
+from mechwright_cad.assembly_order.blocking import Blocking
+from mechwright_cad.assembly_order.fastenings import Seats, fastenings
 from mechwright_cad.assembly_order.groups import BodyLayers, bonds, connected
+from mechwright_cad.assembly_order.holding import Holding, Way
 from mechwright_cad.assembly_order.layers import LEVEL, UP, axis_of, own_layers
+from mechwright_cad.assembly_order.levels import Constraints, Level, Step, steps_of
+from mechwright_cad.assembly_order.reach import Reach
+from mechwright_cad.assembly_order.schedule import Coming
 from mechwright_cad.bodies import Body
+from mechwright_cad.contacts.screw_joints import ScrewJoint, joints_of
 
 CLAMPS = frozenset({"ISO 4762", "ISO 10642"})
 """Standards of screws with a head: what one touches leaves after it, or with it."""
@@ -36,26 +43,6 @@ SHARE = 0.1
 
 Units = Sequence[tuple[int, ...]]
 """Sets of bodies, by number."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """What is done at once.
-
-    Parameters
-    ----------
-    moved
-        Numbers of the bodies that go to their seats; with no ``way``, all that have to be brought together
-        otherwise.
-    onto
-        Numbers of those that stand there already, in the same group.
-    way
-        Unit vector along which they go, from outside to the seat.
-    """
-
-    moved: tuple[int, ...]
-    onto: tuple[int, ...]
-    way: tuple[float, float, float] | None
 
 
 @dataclass(frozen=True)
@@ -79,7 +66,43 @@ class Order:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """All steps; those of a group stand before the step in which it goes to its place."""
-        return tuple(self._together(tuple(range(len(self.bodies)))))
+        given = Constraints(
+            self.table, self.holding, self.seats, self.reach, self.joints, self._clamped, self._root
+        )
+        return tuple(steps_of(given, self._whole))
+
+    @cached_property
+    def _whole(self) -> Level:
+        return self._together(tuple(range(len(self.bodies))))
+
+    @property
+    def has_ways(self) -> bool:
+        """Whether a straight way leads each body to its seat."""
+        return self._whole.has_ways
+
+    @cached_property
+    def joints(self) -> tuple[ScrewJoint, ...]:
+        """All screwed joints."""
+        return tuple(joints_of(self.bodies, self.sample, self.standing.touch))
+
+    @cached_property
+    def seats(self) -> Seats:
+        """How pins and holes go together."""
+        return Seats(self.bodies, self.motion, self.sample, self.standing)
+
+    @cached_property
+    def reach(self) -> Reach:
+        """Which tool gets to what."""
+        return Reach(self.bodies, self.sample, self.standing)
+
+    @cached_property
+    def holding(self) -> Holding:
+        """What holds each body at a step."""
+        ways: dict[int, list[Way]] = {}
+        for k, way in self._whole.ways:
+            ways.setdefault(k, []).append(way)
+        blocking = Blocking(self.bodies, self.standing)
+        return Holding(blocking, fastenings(self.seats, self.joints), ways)
 
     @property
     def root(self) -> int | None:
@@ -186,7 +209,7 @@ class Order:
         return table
 
     def _root(self, members: tuple[int, ...]) -> int:
-        """What the others are put on: the base, or of the lowest group the one that touches most."""
+        """What members are put on: the base, or of the lowest group the one that touches most."""
         if self._base in members:
             return self._base
         groups = connected(members, self._bonds)
@@ -197,19 +220,19 @@ class Order:
         touched = {k: sum(k in bond and set(bond) <= set(lowest) for bond in self._bonds) for k in lowest}
         return max(lowest, key=lambda k: (touched[k], self._sizes[k], -k))
 
-    def _together(self, members: tuple[int, ...]) -> list[Step]:
-        if len(members) < 2:
-            return []
-        leaving = self._leaving(members)
-        if leaving is None:
-            return [Step(members, (), None)]
-        rest = tuple(k for k in members if k not in leaving.bodies)
-        way = tuple((-leaving.way + 0.0).round(9).tolist())
-        return [
-            *self._together(rest),
-            *self._together(leaving.bodies),
-            Step(leaving.bodies, rest, (way[0], way[1], way[2])),
-        ]
+    def _together(self, members: tuple[int, ...]) -> Level:
+        """What members are put together from: taken apart as far as it goes, then the other way round."""
+        units: list[tuple[Coming, Level]] = []
+        rest = members
+        while len(rest) > 1:
+            leaving = self._leaving(rest)
+            if leaving is None:
+                break
+            rest = tuple(k for k in rest if k not in leaving.bodies)
+            x, y, z = (-leaving.way + 0.0).round(9).tolist()
+            alike = self.bodies[leaving.bodies[0]].part.name if len(leaving.bodies) == 1 else ""
+            units.append((Coming(leaving.bodies, (x, y, z), alike), self._together(leaving.bodies)))
+        return Level(rest, tuple(reversed(units)))
 
     def _leaving(self, members: tuple[int, ...]) -> _Leaving | None:
         """What leaves first: a shaft as one with the rings that it holds, a link by itself, if it can."""
@@ -276,7 +299,11 @@ class Order:
         if len(units) < 2:
             return
         barred = self.table.barred(way) | self._clamped
-        graph = np.array([[a is not b and barred[np.ix_(a, b)].any() for b in units] for a in units])
+        inside_of = np.zeros((len(units), len(self.bodies)), dtype=np.int64)
+        for which, unit in enumerate(units):
+            inside_of[which, unit] = 1
+        graph = inside_of @ barred @ inside_of.T > 0
+        np.fill_diagonal(graph, val=False)
         count, of = connected_components(graph, directed=True, connection="strong")
         for which in range(count if count > 1 else 0):
             inside = of == which
@@ -292,6 +319,6 @@ class Order:
             turn = self.bodies[k].poses.rotation[self.sample]
             others = [other for other in members if other != k]
             for way in (turn[:, 0], -turn[:, 0], turn[:, 1], -turn[:, 1]):
-                if not self.table.barred(way)[k, others].any():
+                if not self.table.row(k, way)[others].any():
                     return _Leaving((k,), way, ((k,),))
         return None

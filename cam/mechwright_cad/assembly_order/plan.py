@@ -2,16 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from mechwright.contracts.motion import Motion
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright.pipeline import Build
-from mechwright_cad.assembly_order.order import Order, Step
+from mechwright_cad.assembly_order.levels import Step
+from mechwright_cad.assembly_order.order import Order
 from mechwright_cad.bodies import Body, bodies_of
-from mechwright_cad.contacts.screw_joints import ScrewJoint, joints_of
+from mechwright_cad.contacts.screw_joints import ScrewJoint
 
 LOOKS = 13
 """Positions of the input that are tried, both ends of its way included."""
@@ -27,10 +27,10 @@ class Plan:
     sample: int
     order: Order
 
-    @cached_property
+    @property
     def joints(self) -> tuple[ScrewJoint, ...]:
         """All screwed joints."""
-        return tuple(joints_of(self.bodies, self.sample, self.order.standing.touch))
+        return self.order.joints
 
     def joint(self, number: int) -> ScrewJoint | None:
         """That of a screw, by its number; None of what is none, or is in no thread."""
@@ -66,80 +66,65 @@ class Plan:
 
 def plan_of(build: Build) -> Plan:
     """The plan at the start of the motion; where that holds bodies fast, at the first place that does not."""
-    first = _at(build, build.design.solve(2), 0)
-    if all(step.way is not None for step in first.steps):
-        return first
+    motion = build.design.solve(2)
+    first = _order(build, motion, 0)
+    if first.has_ways:
+        return planned(first)
     motion = build.design.solve(LOOKS)
-    for sample in range(1, LOOKS):
-        found = _at(build, motion, sample)
-        if all(step.way is not None for step in found.steps):
-            return found
-    return first
+    others = (_order(build, motion, sample) for sample in range(1, LOOKS))
+    return planned(next((one for one in others if one.has_ways), first))
 
 
-def _at(build: Build, motion: Motion, sample: int) -> Plan:
-    bodies = tuple(bodies_of(build.parts, motion, sample))
-    order = Order(bodies, motion, sample)
-    return Plan(bodies, tuple(alike(gathered(order), bodies)), motion, sample, order)
+def _order(build: Build, motion: Motion, sample: int) -> Order:
+    return Order(bodies_of(build.parts, motion, sample), motion, sample)
 
 
-def gathered(order: Order) -> list[Step]:
-    """The steps, each copy of a part right after the last one, where nothing between the two minds.
+def planned(order: Order) -> Plan:
+    """The plan of an order."""
+    return Plan(order.bodies, tuple(alike(order.steps, order)), order.motion, order.sample, order)
 
-    Pillar, screw, pillar, screw become two pillars and two screws.
+
+def alike(steps: Sequence[Step], order: Order) -> list[Step]:
+    """Steps that follow each other and do the same with copies of one part as one step.
+
+    Pillar, screw, pillar, screw become two pillars and two screws where each pillar is held by hand until its
+    screw is in: both steps are done for one pillar after the other.
     """
     found: list[Step] = []
-    for step in order.steps:
-        place, tried = len(found), [step]
-        while place and not _copy(order, found[place - 1], tried[0]):
-            before = found[place - 1]
-            if not _may_wait(order, before, tried[0]):
-                break
-            later = replace(before, onto=tuple(sorted((*before.onto, *step.moved))))
-            tried[:1] = [replace(tried[0], onto=before.onto), later]
-            place -= 1
-        if place and _copy(order, found[place - 1], tried[0]):
-            found[place:] = tried
-        else:
-            found.append(step)
-    return found
-
-
-def _copy(order: Order, one: Step, two: Step) -> bool:
-    """Whether two steps put a copy of one part onto the same, the same way."""
-    return (
-        len(one.moved) == len(two.moved) == 1
-        and one.way == two.way is not None
-        and order.bodies[one.moved[0]].part.name == order.bodies[two.moved[0]].part.name
-        and set(two.onto) == {*one.onto, *one.moved}
-    )
-
-
-def _may_wait(order: Order, one: Step, two: Step) -> bool:
-    """Whether a step can as well be done after the next one, which needs nothing of it."""
-    if one.way is None or len(two.moved) > 1 or set(two.onto) != {*one.onto, *one.moved}:
-        return False
-    barred = order.table.barred(-np.array(one.way))
-    return not any(barred[k, two.moved[0]] or order.standing.touch(k, two.moved[0]) for k in one.moved)
-
-
-def alike(steps: Sequence[Step], bodies: Sequence[Body]) -> list[Step]:
-    """Steps that follow each other and do the same with copies of one part as one step."""
-    found: list[Step] = []
     for step in steps:
-        last = found[-1] if found else None
-        if (
-            last is not None
-            and last.onto
-            and last.way == step.way is not None
-            and set(step.onto) == {*last.onto, *last.moved}
-            and len(step.moved) == 1
-            and {bodies[k].part.name for k in last.moved} == {bodies[step.moved[0]].part.name}
-        ):
-            found[-1] = replace(last, moved=(*last.moved, *step.moved))
-        else:
-            found.append(step)
+        found.append(step)
+        if len(found) > 1 and not found[-2].hand and _copies(order, *found[-2:]):
+            found[-2:] = [_merged(*found[-2:])]
+        elif len(found) > 3 and _taken_in_turn(order, *found[-4:]):
+            part, screw, other, another = found[-4:]
+            parts = _merged(part, other)
+            found[-4:] = [parts, _merged(replace(screw, onto=_there(parts)), another)]
     return found
+
+
+def _copies(order: Order, one: Step, two: Step) -> bool:
+    """Whether two steps put copies of one part onto the same root, the same way."""
+    names = {order.bodies[k].part.name for k in (*one.moved, *two.moved)}
+    apart = len(two.moved) == 1 and bool(one.onto)
+    return apart and one.way == two.way is not None and one.root == two.root and len(names) == 1
+
+
+def _taken_in_turn(order: Order, part: Step, screw: Step, other: Step, another: Step) -> bool:
+    """Whether two parts, each held until its screw is in, can as well be told of in two steps."""
+    if not (part.hand and other.hand and _copies(order, part, other) and _copies(order, screw, another)):
+        return False
+    if screw.hand or another.hand or screw.way is None:
+        return False
+    barred = [order.table.row(k, -np.array(screw.way)) for k in screw.moved]
+    return not any(row[list(other.moved)].any() for row in barred)
+
+
+def _there(step: Step) -> tuple[int, ...]:
+    return tuple(sorted((*step.onto, *step.moved)))
+
+
+def _merged(one: Step, two: Step) -> Step:
+    return replace(one, moved=(*one.moved, *two.moved), down=two.down, hand=(*one.hand, *two.hand))
 
 
 def sequence(steps: Sequence[Step], count: int, root: int | None = None) -> tuple[int, ...]:

@@ -16,12 +16,12 @@ import numpy as np
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.part import Bore, Part
 from mechwright.errors import DesignError
+from mechwright.mechanics.mating.rounds import NEAR, rounds_of
 from mechwright.standards.dowels import dowel_for
 from mechwright.standards.ordering import order_of
 from mechwright.standards.screws import needs_washer, washer
 from mechwright.standards.supply import Supply
 from mechwright_cad.bodies import Body
-from mechwright_cad.contacts.rounds import NEAR, rounds_of
 from mechwright_cad.contacts.screw_joints import ScrewJoint, screw_of
 
 GREASE = "grease for plain bearings"

@@ -1,0 +1,122 @@
+"""What is set, measured and tried while a machine is put together: motor, float, shafts, backlash, run-in."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from mechwright.mechanics.mating.rounds import Match
+from mechwright.mechanics.strength.tightening import torque_text
+from mechwright_cad.assembly_order.groups import is_bearing
+from mechwright_cad.assembly_order.levels import Step
+from mechwright_cad.assembly_order.plan import Plan
+from mechwright_cad.bodies import is_coupling, is_motor
+
+CROSSWISE = 3
+"""So many screws of one flange are tightened crosswise."""
+
+
+@dataclass(frozen=True)
+class Float:
+    """A declared axial play: its name, what is meant, mm, the parts in its loop, and what shims it."""
+
+    name: str
+    least: float
+    greatest: float
+    parts: frozenset[str]
+    shims: str = ""
+
+
+def declared_floats(stacks: Sequence[Any]) -> list[Float]:
+    """The floats of axial stacks (name, play that is meant, contributors with parts, shimming)."""
+    found = []
+    for one in stacks:
+        shimming = one.shimming
+        shims = "" if shimming is None else f"{shimming.designation}, {shimming.where}"
+        least, greatest = one.play
+        parts = frozenset(each.part for each in one.contributors if each.part)
+        found.append(Float(one.name, least, greatest, parts, shims))
+    return found
+
+
+class Adjusting:
+    """The adjustments of a plan, each told at one step."""
+
+    def __init__(self, plan: Plan, floats: Sequence[Float] = ()) -> None:
+        self.plan, self.floats = plan, tuple(floats)
+        self._main = [step for step in plan.steps if step.root == plan.order.root]
+        self._turned: set[str] = set()
+
+    def waits(self, match: Match) -> int | None:
+        """The step at which the coupling's screw on a motor is tightened, where that is a later one."""
+        one, two = self.plan.bodies[match.pin], self.plan.bodies[match.hole]
+        return self.aligned if is_motor(one.part) and is_coupling(two.part) else None
+
+    @cached_property
+    def aligned(self) -> int | None:
+        """The step that fastens the motor, where a coupling is on it already; None without both."""
+        motors = [k for k, body in enumerate(self.plan.bodies) if is_motor(body.part)]
+        couplings = [k for k, body in enumerate(self.plan.bodies) if is_coupling(body.part)]
+        order = self.plan.order
+        for step in self._main:
+            there = frozenset((*step.onto, *step.moved))
+            if not {*motors, *couplings} <= there or not motors or not couplings:
+                continue
+            without = there.difference(couplings)
+            if not any(motors[0] in unit for unit in order.holding.unretained(without, step.root)):
+                return self.plan.steps.index(step) + 1
+        return None
+
+    def aligning(self, step: Step) -> Iterator[str]:
+        """How motor and shaft come in line, at the step that fastens the motor."""
+        if self.aligned == self.plan.steps.index(step) + 1:
+            yield (
+                "Align the motor before its screws are tight: turn the coupling by hand, and shift the motor "
+                "until the coupling neither wobbles nor binds through a whole turn."
+            )
+            yield "Tighten the screw of the coupling on the motor's shaft last, and turn once more by hand."
+
+    def crosswise(self, step: Step) -> Iterator[str]:
+        """Several screws of one flange: in two passes."""
+        torques = [joint.tightening for joint in map(self.plan.joint, step.moved) if joint is not None]
+        found = [one.torque for one in torques if one is not None]
+        if len(found) >= CROSSWISE and len(found) == len(step.moved):
+            half = torque_text(min(found) / 2)
+            yield f"Tighten them crosswise in two passes: first to {half} N m, then to the torque."
+
+    def shafts(self, step: Step, name: Callable[[int], str]) -> Iterator[str]:
+        """Shafts whose bearings all sit in their seats now: they turn by hand."""
+        if step.root != self.plan.order.root:
+            return
+        there = {*step.onto, *step.moved}
+        seats, bodies = self.plan.order.seats, self.plan.bodies
+        rings: dict[int, list[int]] = {}
+        for one in seats.matches:
+            if is_bearing(bodies[one.hole]):
+                rings.setdefault(one.pin, []).append(one.hole)
+        housed = {one.pin for one in seats.matches if one.hole in there}
+        for shaft, on in rings.items():
+            head = seats.head(shaft)
+            if head not in self._turned and shaft in there and set(on) <= there & housed:
+                self._turned.add(head)
+                yield f"Try: {name(shaft)} turns by hand through a whole turn without a tight place."
+
+    def measured(self, step: Step) -> Iterator[str]:
+        """Declared floats whose parts are all there since this step."""
+        if step.root != self.plan.order.root:
+            return
+        now = {self.plan.bodies[k].part.name for k in (*step.onto, *step.moved)}
+        before = {self.plan.bodies[k].part.name for k in step.onto}
+        for one in self.floats:
+            if one.parts and one.parts <= now and not one.parts <= before:
+                meant = f"{one.least:.2f} to {one.greatest:.2f} mm are meant"
+                shims = f" Take up more with rings {one.shims}." if one.shims else ""
+                yield f"Push and pull, and measure the {one.name} with a dial gauge: {meant}.{shims}"
+
+    def run_in(self, step: Step) -> Iterator[str]:
+        """What is done when all is together."""
+        if step is self.plan.steps[-1] and any(joint.drives for joint in self.plan.motion.joints.values()):
+            yield (
+                "Run in: turn the input by hand through one whole cycle, then run without load at low speed. "
+                "Oil bushes, grease teeth and slides, and check every torque once more."
+            )

@@ -1,0 +1,157 @@
+"""What fastens bodies to each other: screws, seats without play, keys, rings, clamps.
+
+A seat of plain cylinders with play holds nothing along its axis (H7/h6, H7/g6).
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal
+
+import numpy as np
+
+from mechwright.contracts.bodies import rigid
+from mechwright.contracts.motion import Motion
+from mechwright.contracts.part import Part
+from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, Match, matches, rounds_of
+from mechwright_cad.assembly_order.groups import BodyLayers, is_bearing
+from mechwright_cad.bodies import Body, is_coupling
+from mechwright_cad.contacts.screw_joints import ScrewJoint
+
+ROOM = 0.1
+"""Play that no seat has, mm."""
+
+RINGS, KEYS, BUSHES = frozenset({"DIN 471", "DIN 472"}), "DIN 6885-1", "ISO 2795"
+
+Kind = Literal["screwed", "pressed", "bonded", "keyed", "ring", "clamped"]
+
+
+@dataclass(frozen=True)
+class Fastening:
+    """Bodies that are one as soon as some of them are there.
+
+    Parameters
+    ----------
+    kind
+        What does it.
+    needs
+        Numbers of the bodies without which it holds nothing.
+    joins
+        Numbers of those that it holds together, as far as they are there.
+    """
+
+    kind: Kind
+    needs: frozenset[int]
+    joins: frozenset[int]
+
+
+class Seats:
+    """How pins and holes go together: matches of all bodies that touch, and what each does."""
+
+    def __init__(self, bodies: Sequence[Body], motion: Motion, sample: int, standing: BodyLayers) -> None:
+        self.bodies, self.sample, self.standing = tuple(bodies), sample, standing
+        self._heads = rigid(motion)
+        self.touching = [pair for pair in combinations(range(len(self.bodies)), 2) if standing.touch(*pair)]
+        self.matches: list[Match] = [
+            match for one, two in self.touching for match in matches(bodies, sample, (one,), (two,))
+        ]
+
+    def head(self, number: int) -> str:
+        """The body of the motion that a body is fixed to."""
+        return self._heads[self.bodies[number].instance.body]
+
+    def is_bush(self, number: int) -> bool:
+        """Whether a body is a bush: bought as one, or turned with a bore."""
+        part = self.bodies[number].part
+        bought = part.bought is not None and part.bought.standard == BUSHES
+        return bought or (part.turned is not None and part.turned.bore > 0)
+
+    def is_fast(self, match: Match) -> bool:
+        """Whether a pin does not turn in its hole: no bearing does in its seat, no shaft in its coupling."""
+        one, two = (self.bodies[k] for k in (match.pin, match.hole))
+        alike = self.head(match.pin) == self.head(match.hole)
+        return alike or any(is_bearing(body) or is_coupling(body.part) for body in (one, two))
+
+    def kind(self, match: Match) -> Kind | None:
+        """What fastens a pin in its hole; None where it slides or turns."""
+        least, _ = match.play
+        if match.inside.threaded:
+            return "screwed"
+        if is_coupling(self.bodies[match.hole].part):
+            return "clamped"
+        if not self.is_fast(match):
+            return None
+        if match.unsaid:
+            return None
+        if least < 0:
+            return "pressed"
+        return "bonded" if needs_compound(*(self.bodies[k].part for k in (match.pin, match.hole))) else None
+
+
+def needs_compound(pin: Part, hole: Part) -> bool:
+    """Whether nothing but retaining compound holds a pin in a hole that it slides in."""
+    ring = any(part.turned is not None and part.turned.bore for part in (pin, hole))
+    keyed = pin.turned is not None and pin.turned.seats
+    screwed_down = pin.turned is not None and pin.turned.threads
+    return not (ring or keyed or screwed_down or pin.bought is not None or hole.bought is not None)
+
+
+def fastenings(seats: Seats, joints: Sequence[ScrewJoint]) -> list[Fastening]:
+    """All fastenings of an assembly."""
+    found = [_screwed(seats, joint) for joint in joints]
+    known: set[tuple[int, int]] = set()
+    for match in seats.matches:
+        pair = frozenset((match.pin, match.hole))
+        kind = seats.kind(match)
+        known.add((min(pair), max(pair)))
+        if kind is not None:
+            found.append(Fastening(kind, pair, pair))
+    return [*found, *_others(seats, known)]
+
+
+def _others(seats: Seats, known: set[tuple[int, int]]) -> Iterator[Fastening]:
+    """Keys and rings on their shafts; pins and bushes of solids whose holes are not declared."""
+    for one, two in seats.touching:
+        pair = frozenset((one, two))
+        parts = [seats.bodies[k].part for k in (one, two)]
+        standards = {part.bought.standard for part in parts if part.bought is not None}
+        shaft = any(part.turned is not None for part in parts)
+        if seats.head(one) != seats.head(two):
+            continue
+        if standards & RINGS and shaft:
+            yield Fastening("ring", pair, pair)
+        elif KEYS in standards and shaft:
+            yield Fastening("keyed", pair, pair)
+        elif (one, two) not in known and any(part.kind == "solid" for part in parts):
+            pin = any(
+                (part.turned is not None and not part.turned.threads and not part.turned.bore)
+                or (part.bought is not None and part.bought.standard == BUSHES)
+                for part in parts
+            )
+            if pin:
+                yield Fastening("pressed", pair, pair)
+
+
+def _screwed(seats: Seats, joint: ScrewJoint) -> Fastening:
+    """A screw with the holder of its thread, and all that it passes through between head and thread."""
+    needs = frozenset((joint.screw, joint.holder))
+    if not joint.what.head:
+        held = {k for pair in seats.touching if joint.screw in pair for k in pair}
+        alike = {k for k in held if seats.head(k) == seats.head(joint.holder)}
+        return Fastening("screwed", needs, needs | alike)
+    body = seats.bodies[joint.screw]
+    turn, place = body.poses.rotation[seats.sample], body.poses.position[seats.sample]
+    seat, axis = place + body.instance.z * turn[:, 2], joint.what.tip * turn[:, 2]
+    stack = {k for k, _ in joint.clamped}
+    for k, other in enumerate(seats.bodies):
+        for one in rounds_of(other, seats.sample) if k not in needs else ():
+            away = seat - one.at
+            along = float(away @ one.axis)
+            if not one.inside or abs(one.axis @ axis) < 1 - PARALLEL:
+                continue
+            if np.linalg.norm(away - along * one.axis) > NEAR or one.diameter > joint.what.head:
+                continue
+            ends = sorted(float((one.at + at * one.axis - seat) @ axis) for at in (one.low, one.high))
+            if ends[0] < joint.what.length and ends[1] > 0:
+                stack.add(k)
+    return Fastening("screwed", needs, needs | stack)

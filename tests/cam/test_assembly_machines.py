@@ -1,0 +1,85 @@
+"""The checker of an order of assembly over the machines and chains of the examples."""
+
+from pathlib import Path
+
+import pytest
+from by_night import by_night
+from cam.assembly_check import badly_pressed, falling, faults, loose, unreached
+
+from mechwright.pipeline import Build, Wanted
+from mechwright.plugins.host import host
+from mechwright_cad.assembly_order.inspections import order_findings
+from mechwright_cad.assembly_order.plan import plan_of
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+MACHINES = [
+    pytest.param(name, marks=by_night)
+    for name in (
+        "elliptic-pair-machine",
+        "figure-eight-machine",
+        "four-bar-machine",
+        "slider-crank-machine",
+        "geneva-machine",
+        "spur-gears-machine",
+        "five-bar-machine",
+    )
+]
+
+SPHERICAL = {
+    "spherical-five-bar-machine": {"pinion", "spacer-a0"},
+    "spherical-machine": {"rocker", "coupler"},
+    "spherical-double-crank-machine": {"base", "base-plate", "crank", "spacer-a0"},
+}
+"""Parts that two hands have to hold at one step: their ways leave no other order."""
+
+
+@pytest.mark.parametrize("name", ["crank-rocker-finished", *MACHINES])
+def test_parts_are_held_when_needed_screws_reached_and_presses_supported(name):
+    with Build(EXAMPLES / f"{name}.toml", host(), Wanted("model")) as build:
+        found = plan_of(build)
+    assert max(falling(found)) <= 1
+    assert falling(found)[-1] == 0
+    assert list(unreached(found)) == []
+    assert list(badly_pressed(found)) == []
+    assert faults(found) == []
+    assert [one for one in order_findings(found) if one.severity != "note"] == []
+
+
+@by_night
+@pytest.mark.parametrize(
+    "name", sorted(one.stem for one in (EXAMPLES / "chains").glob("*.toml") if "requirement" not in one.stem)
+)
+def test_screws_of_a_chain_are_reached_and_its_presses_supported(name):
+    with Build(EXAMPLES / "chains" / f"{name}.toml", host(), Wanted("model")) as build:
+        found = plan_of(build)
+    assert [one for one in order_findings(found, framed=False) if one.severity != "note"] == []
+
+
+@by_night
+@pytest.mark.parametrize("name", list(SPHERICAL))
+def test_spherical_machines_ask_for_more_hands_only_where_it_is_said(name):
+    with Build(EXAMPLES / f"{name}.toml", host(), Wanted("model")) as build:
+        found = plan_of(build)
+    assert list(unreached(found)) == []
+    assert list(badly_pressed(found)) == []
+    warned = [one for one in order_findings(found) if one.severity != "note"]
+    assert {one.code for one in warned} == {"assembly.held"}
+    named = {
+        word
+        for one in warned
+        for word in one.message.removeprefix("nothing holds ").split(" once ")[0].split(" and ")
+    }
+    assert named <= SPHERICAL[name]
+
+
+@by_night
+def test_pillars_of_a_machine_are_fast_before_its_shafts_come():
+    with Build(EXAMPLES / "elliptic-pair-machine.toml", host(), Wanted("model")) as build:
+        found = plan_of(build)
+    counts = loose(found)
+    names = [{found.bodies[k].part.name for k in step.moved} for step in found.order.steps]
+    first = next(k for k, those in enumerate(names) if any(n.startswith("shaft-") for n in those))
+    assert counts[first - 1] == 0
+    assert max(counts[:first]) <= 4
