@@ -26,12 +26,12 @@ class Shim:
         """How it is ordered, without its thickness."""
         return f"DIN 988 - {self.inner:g} x {self.outer:g}"
 
-    def bought(self, thickness: float, note: str = "") -> Bought:
-        """How a ring of this thickness, mm, is ordered; it stands on z = 0."""
+    def bought(self, thickness: float, note: str = "", *, on_shaft: bool = True) -> Bought:
+        """How a ring of this thickness, mm, is ordered; it stands on z = 0, on a shaft or in a bore."""
         words = f"{self.designation} x {thickness:g}"
         shape = Shape((ring(self.inner, self.outer, thickness),))
-        fits = hole_fit(self.inner, "D12"), shaft_fit(self.outer, "d12")
-        return Bought(words, "DIN 988", None, shape, note, fits=fits)
+        fit = hole_fit(self.inner, "D12") if on_shaft else shaft_fit(self.outer, "d12")
+        return Bought(words, "DIN 988", None, shape, note, fits=(fit,))
 
 
 def shims() -> tuple[Shim, ...]:

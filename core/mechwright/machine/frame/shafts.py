@@ -148,22 +148,22 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     under = hub_ring(seat)
     kit.bought(ring.part_name, ring.bought, body, over, play=0.0 if under else hub_room(seat))
     if under is not None:
-        add_shim(kit, under, hub_room(seat), body, hub.high)
+        add_shim(kit, under, hub_room(seat), body, hub.high, on_shaft=True)
     name = f"bearing-{bearing.name.replace('/', '_')}"
     for z in (levels.lower - bearing.width, upper):
         kit.bought(name, bearing.bought, axis, z)
     behind = ring_of(seat)
     if behind is not None:
-        add_shim(kit, behind, RING, axis, upper + bearing.width)
+        add_shim(kit, behind, RING, axis, upper + bearing.width, on_shaft=False)
     return shaft
 
 
-def add_shim(kit: Kit, shim: Shim, thickness: float, body: str, z: float) -> None:
+def add_shim(kit: Kit, shim: Shim, thickness: float, body: str, z: float, *, on_shaft: bool) -> None:
     """A shim ring of the thickness that is drawn, mm; what goes in is chosen after measuring."""
     note = (
         f"a set of {', '.join(f'{one:g}' for one in THICKNESSES)} mm: the play is measured, see stacks.html"
     )
-    kit.bought(shim_name(shim, thickness), shim.bought(thickness, note), body, z)
+    kit.bought(shim_name(shim, thickness), shim.bought(thickness, note, on_shaft=on_shaft), body, z)
 
 
 def shim_name(shim: Shim, thickness: float) -> str:
