@@ -17,15 +17,17 @@ from mechwright.contracts.turned import EndThread, Turned, tube
 from mechwright.contracts.turned import Step as Length
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline, circle
+from mechwright.pipeline import Build, Wanted
+from mechwright.plugins.host import host
 from mechwright.standards.bushes import bush_for
 from mechwright.standards.circlips import shaft_circlip
 from mechwright.standards.hexagon_keys import bit_diameter, hexagon_key
 from mechwright.standards.screws import screw
-from mechwright_cad.assembly_guide.adjusting import declared_floats
+from mechwright_cad.assembly_guide.adjusting import Adjusting
 from mechwright_cad.assembly_guide.handling import whence
 from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.order import Order
-from mechwright_cad.assembly_order.plan import Plan, alike
+from mechwright_cad.assembly_order.plan import Plan, alike, plan_of
 from mechwright_cad.assembly_order.press import presses, support
 from mechwright_cad.assembly_order.reach import Reach
 from mechwright_cad.assembly_order.schedule import precedence
@@ -318,14 +320,20 @@ def test_ways_are_named_by_the_eight_sides_and_their_tilt():
     )
 
 
-def test_floats_that_are_declared_are_read_and_nothing_is_made_up():
-    class Given:
-        name, play = "float of shaft 2", (0.03, 0.17)
-        contributors = tuple(type("Length", (), {"part": name}) for name in ("shaft-2", "", "plate"))
-        shimming = type("Rings", (), {"designation": "DIN 988 - 20 x 28", "where": "in the upper seat"})
-
-    (one,) = declared_floats([Given])
-    assert (one.least, one.greatest) == (0.03, 0.17)
-    assert one.parts == {"shaft-2", "plate"}
-    assert one.shims == "DIN 988 - 20 x 28, in the upper seat"
-    assert declared_floats([]) == []
+def test_the_float_of_a_shaft_is_measured_once_its_parts_are_there():
+    with Build(EXAMPLES / "elliptic-pair-machine.toml", host(), Wanted("check")) as build:
+        plan, stacks = build.made(plan_of), build.design.stacks
+    adjusting = Adjusting(plan, stacks)
+    said = [sentence for step in plan.steps for sentence in adjusting.measured(step)]
+    (one,) = [sentence for sentence in said if "float of shaft 2" in sentence]
+    assert one.startswith(
+        "Push and pull, and measure the float of shaft 2 with a dial gauge, without rings: it is "
+    )
+    (stack,) = [each for each in stacks if each.name == "float of shaft 2"]
+    low, high = stack.worst
+    assert f"{low:.2f} to {high:.2f} mm" in one
+    assert (
+        f"for {stack.middle:.2f} mm {' + '.join(f'{ring:g}' for ring in stack.shimming.rings(stack.middle))}"
+        in one
+    )
+    assert Adjusting(plan, ()).stacks == ()

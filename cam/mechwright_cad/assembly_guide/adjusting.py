@@ -1,10 +1,9 @@
 """What is set, measured and tried while a machine is put together: motor, float, shafts, backlash, run-in."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
+from mechwright.contracts.axial_stack import AxialStack
 from mechwright.mechanics.mating.rounds import Match
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_order.groups import is_bearing
@@ -16,34 +15,11 @@ CROSSWISE = 3
 """So many screws of one flange are tightened crosswise."""
 
 
-@dataclass(frozen=True)
-class Float:
-    """A declared axial play: its name, what is meant, mm, the parts in its loop, and what shims it."""
-
-    name: str
-    least: float
-    greatest: float
-    parts: frozenset[str]
-    shims: str = ""
-
-
-def declared_floats(stacks: Sequence[Any]) -> list[Float]:
-    """The floats of axial stacks (name, play that is meant, contributors with parts, shimming)."""
-    found = []
-    for one in stacks:
-        shimming = one.shimming
-        shims = "" if shimming is None else f"{shimming.designation}, {shimming.where}"
-        least, greatest = one.play
-        parts = frozenset(each.part for each in one.contributors if each.part)
-        found.append(Float(one.name, least, greatest, parts, shims))
-    return found
-
-
 class Adjusting:
     """The adjustments of a plan, each told at one step."""
 
-    def __init__(self, plan: Plan, floats: Sequence[Float] = ()) -> None:
-        self.plan, self.floats = plan, tuple(floats)
+    def __init__(self, plan: Plan, stacks: Sequence[AxialStack] = ()) -> None:
+        self.plan, self.stacks = plan, tuple(stacks)
         self._main = [step for step in plan.steps if step.root == plan.order.root]
         self._turned: set[str] = set()
 
@@ -102,16 +78,16 @@ class Adjusting:
                 yield f"Try: {name(shaft)} turns by hand through a whole turn without a tight place."
 
     def measured(self, step: Step) -> Iterator[str]:
-        """Declared floats whose parts are all there since this step."""
+        """Axial stacks whose parts are all there since this step, with the rings that each takes."""
         if step.root != self.plan.order.root:
             return
         now = {self.plan.bodies[k].part.name for k in (*step.onto, *step.moved)}
         before = {self.plan.bodies[k].part.name for k in step.onto}
-        for one in self.floats:
-            if one.parts and one.parts <= now and not one.parts <= before:
-                meant = f"{one.least:.2f} to {one.greatest:.2f} mm are meant"
-                shims = f" Take up more with rings {one.shims}." if one.shims else ""
-                yield f"Push and pull, and measure the {one.name} with a dial gauge: {meant}.{shims}"
+        for one in self.stacks:
+            rings = "" if one.shimming is None else one.shimming.part
+            parts = {each.part for each in one.lengths} - {"", rings}
+            if parts and parts <= now and not parts <= before:
+                yield _measured(one)
 
     def run_in(self, step: Step) -> Iterator[str]:
         """What is done when all is together."""
@@ -120,3 +96,19 @@ class Adjusting:
                 "Run in: turn the input by hand through one whole cycle, then run without load at low speed. "
                 "Oil bushes, grease teeth and slides, and check every torque once more."
             )
+
+
+def _measured(stack: AxialStack) -> str:
+    """How the play of a stack is measured, and what is done about it."""
+    low, high = stack.worst
+    how = f"Push and pull, and measure the {stack.name} with a dial gauge"
+    shimming = stack.shimming
+    if shimming is None:
+        return f"{how}: it is {low:.2f} to {high:.2f} mm."
+    rings = " + ".join(f"{ring:g}" for ring in shimming.rings(stack.middle))
+    given = f", for {stack.middle:.2f} mm {rings}" if rings else ""
+    return (
+        f"{how}, without rings: it is {low:.2f} to {high:.2f} mm. Rings {shimming.designation} leave "
+        f"{shimming.least:g} to {shimming.least + shimming.step:g} mm of it{given}. They go "
+        f"{shimming.where}: put them in, and assemble again."
+    )

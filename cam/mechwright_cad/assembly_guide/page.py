@@ -8,8 +8,8 @@ from mechwright.output.templates import templates
 from mechwright.pipeline import Build, FileName, Page, Wanted
 
 if TYPE_CHECKING:
+    from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.part import Part
-    from mechwright_cad.assembly_guide.adjusting import Float
     from mechwright_cad.assembly_guide.pictures import Pictures
     from mechwright_cad.assembly_order.plan import Plan
 
@@ -63,16 +63,9 @@ class AssemblyGuide(Page):
         pictures = Pictures(plan, {part.name: number for number, those in numbered.items() for part in those})
         sheet = assembly_sheet(pictures, numbered, name)
         return {
-            HTML: assembly_html(name, plan, numbered, pictures, _floats(build)),
+            HTML: assembly_html(name, plan, numbered, pictures, build.design.stacks),
             **dict(zip(SHEETS, (dxf(sheet), pdf(sheet, f"{name}: assembly")), strict=True)),
         }
-
-
-def _floats(build: Build) -> "list[Float]":
-    """The floats that a design declares as axial stacks; none where it declares nothing."""
-    from mechwright_cad.assembly_guide.adjusting import declared_floats
-
-    return declared_floats(build.design.stacks)
 
 
 def assembly_html(
@@ -80,14 +73,14 @@ def assembly_html(
     plan: "Plan",
     numbered: "Mapping[int, Sequence[Part]]",
     pictures: "Pictures",
-    floats: "Sequence[Float]" = (),
+    stacks: "Sequence[AxialStack]" = (),
 ) -> str:
     """The whole page."""
     from mechwright_cad.assembly_guide.undoing import undone
     from mechwright_cad.assembly_guide.words import Words
     from mechwright_cad.bill.page import HTML as BILL
 
-    words = Words(plan, {part.name: number for number, those in numbered.items() for part in those}, floats)
+    words = Words(plan, {part.name: number for number, those in numbered.items() for part in those}, stacks)
     steps: list[dict[str, Any]] = []
     for place, step in enumerate(plan.steps, start=1):
         title = words.title(step)

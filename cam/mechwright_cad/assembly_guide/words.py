@@ -4,9 +4,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.bodies import rigid
 from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
-from mechwright_cad.assembly_guide.adjusting import Adjusting, Float
+from mechwright_cad.assembly_guide.adjusting import Adjusting
 from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.handling import Handling, whence
 from mechwright_cad.assembly_guide.pressing import BENCH, pressed
@@ -32,10 +33,10 @@ _TRIED = {
 class Words:
     """The sentences of a plan, with the numbers of its items."""
 
-    def __init__(self, plan: Plan, numbers: dict[str, int], floats: Sequence[Float] = ()) -> None:
+    def __init__(self, plan: Plan, numbers: dict[str, int], stacks: Sequence[AxialStack] = ()) -> None:
         self.plan, self.numbers = plan, numbers
         self._heads = rigid(plan.motion)
-        self._handling, self._adjusting = Handling(plan), Adjusting(plan, floats)
+        self._handling, self._adjusting = Handling(plan), Adjusting(plan, stacks)
         self._last = {k: step for step in plan.steps for k in step.moved}
         self._first = {k: step for step in reversed(plan.steps) for k in step.moved}
         self._last |= {plan.sequence[0]: plan.steps[0]} if plan.steps else {}

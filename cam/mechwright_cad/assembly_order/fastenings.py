@@ -18,9 +18,6 @@ from mechwright_cad.assembly_order.groups import BodyLayers, is_bearing
 from mechwright_cad.bodies import Body, is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint
 
-ROOM = 0.1
-"""Play that no seat has, mm."""
-
 RINGS, KEYS, BUSHES = frozenset({"DIN 471", "DIN 472"}), "DIN 6885-1", "ISO 2795"
 
 Kind = Literal["screwed", "pressed", "bonded", "keyed", "ring", "clamped"]
