@@ -325,11 +325,11 @@ def test_the_float_of_a_shaft_is_measured_once_its_parts_are_there():
         plan, stacks = build.made(plan_of), build.design.stacks
     adjusting = Adjusting(plan, stacks)
     said = [sentence for step in plan.steps for sentence in adjusting.measured(step)]
-    (one,) = [sentence for sentence in said if "float of shaft 2" in sentence]
+    (one,) = [sentence for sentence in said if "float of shaft-2" in sentence]
     assert one.startswith(
-        "Push and pull, and measure the float of shaft 2 with a dial gauge, without rings: it is "
+        "Push and pull, and measure the float of shaft-2 with a dial gauge, without rings: it is "
     )
-    (stack,) = [each for each in stacks if each.name == "float of shaft 2"]
+    (stack,) = [each for each in stacks if each.name == "float of shaft-2"]
     low, high = stack.worst
     assert f"{low:.2f} to {high:.2f} mm" in one
     assert (

@@ -79,8 +79,6 @@ class Adjusting:
 
     def measured(self, step: Step) -> Iterator[str]:
         """Axial stacks whose parts are all there since this step, with the rings that each takes."""
-        if step.root != self.plan.order.root:
-            return
         now = {self.plan.bodies[k].part.name for k in (*step.onto, *step.moved)}
         before = {self.plan.bodies[k].part.name for k in step.onto}
         for one in self.stacks:
