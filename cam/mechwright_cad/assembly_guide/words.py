@@ -209,9 +209,7 @@ class Words:
         if match.unsaid:
             return f"{pin} goes through {hole} with room, {match.text}: it is no seat."
         if most <= 0:
-            return (
-                f"{pin} in {hole} is a press fit, {match.text}, {-most:.3f} to {-least:.3f} mm tight. {press}"
-            )
+            return f"{pin} in {hole} is a press fit, {match.text}, {0.0 - most:.3f} to {-least:.3f} mm tight. {press}"
         if least < 0:
             loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose"
             return f"{pin} in {hole} is a push fit, {match.text}, {loose}: light blows, or warm {hole}."
@@ -222,7 +220,7 @@ class Words:
         """What keeps a pin from turning in a hole that it slides in."""
         if not needs_compound(*(self.plan.bodies[k].part for k in (match.pin, match.hole))):
             return ""
-        return " Nothing else holds it: secure it, with retaining compound if it stays for good."
+        return " Nothing else holds it: bond it with retaining compound."
 
     def _tries(self, step: Step, found: Sequence[Match]) -> Iterator[str]:
         """What has to move by hand now, as it first can."""

@@ -24,7 +24,7 @@ from pydantic import AfterValidator, Field
 
 from mechwright.arrays import Array
 from mechwright.contracts.bodies import Placed, rigid
-from mechwright.contracts.fits import EXACT, Fit, hole_fit, running_hole, shaft_fit
+from mechwright.contracts.fits import Fit, hole_fit, running_hole, shaft_fit
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.limits import limits
 from mechwright.contracts.motion import Motion
@@ -120,14 +120,7 @@ class Assembled:
             match
             for two in every
             for match in matches(self.bodies, 0, [two], range(two))
-            if not match.inside.threaded and not self._is_ring(match)
-        )
-
-    def _is_ring(self, match: Match) -> bool:
-        """Whether it is a circlip in its groove, which is narrower than its shaft."""
-        return (
-            self.bodies[match.hole].part.bought is not None
-            and match.inside.diameter < match.outside.diameter - EXACT
+            if not match.inside.threaded
         )
 
     def same_group(self, match: Match) -> bool:

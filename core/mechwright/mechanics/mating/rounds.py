@@ -31,6 +31,10 @@ NEAR = 0.05
 CONTACT = 0.02
 """Faces nearer to each other than this, mm, touch: half the play of a sliding fit, and a stack's rounding."""
 
+TIGHT = 0.1
+"""How much narrower a hole is drawn than its pin, mm, at most: a circlip in its groove is narrower, and no
+hole."""
+
 ALIKE = 0.3
 """How much wider a hole is than what it fits, mm, at most: more is room, as for a screw."""
 
@@ -179,7 +183,7 @@ def _fits(pin: Round, hole: Round) -> bool:
         return False
     away = pin.at - hole.at
     along = float(away @ hole.axis)
-    if np.linalg.norm(away - along * hole.axis) > NEAR or not -ALIKE < hole.diameter - pin.diameter < ALIKE:
+    if np.linalg.norm(away - along * hole.axis) > NEAR or not -TIGHT < hole.diameter - pin.diameter < ALIKE:
         return False
     sign = 1.0 if pin.axis @ hole.axis > 0 else -1.0
     low, high = sorted((along + sign * pin.low, along + sign * pin.high))
