@@ -16,9 +16,6 @@ if TYPE_CHECKING:
 STEM = "bill-of-materials"
 """Of both files."""
 
-BOND = "frame.bond"
-"""Codes of findings of hubs that are bonded begin so."""
-
 CSV, HTML = f"{STEM}.csv", f"{STEM}.html"
 
 
@@ -58,7 +55,8 @@ class BillOfMaterials(Page):
         ]
         plan, order = build.made(plan_of), order_of(build)
         masses = build.made_as_wanted(Solids).masses()
-        bonded = any(said.code.startswith(BOND) for one in build.design.surroundings for said in one.findings)
+        seats = plan.order.seats
+        bonded = any(seats.kind(match) == "bonded" for match in seats.matches)
         supplies = supplies_of(
             plan.bodies, plan.joints, numbers_of(build.parts, order), bonded=bonded, sample=plan.sample
         )

@@ -51,7 +51,7 @@ def supplies_of(
     numbers
         Name of a part to the number of its item.
     bonded
-        Whether a hub of the frame is bonded to its shaft.
+        Whether a pin or shaft of the assembly is bonded into its hole.
     sample
         Of the poses of the bodies at which dowels are looked for.
     """
