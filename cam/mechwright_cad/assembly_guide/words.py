@@ -209,7 +209,8 @@ class Words:
         if match.unsaid:
             return f"{pin} goes through {hole} with room, {match.text}: it is no seat."
         if most <= 0:
-            return f"{pin} in {hole} is a press fit, {match.text}, {0.0 - most:.3f} to {-least:.3f} mm tight. {press}"
+            tight = f"{0.0 - most:.3f} to {-least:.3f} mm tight"
+            return f"{pin} in {hole} is a press fit, {match.text}, {tight}. {press}"
         if least < 0:
             loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose"
             return f"{pin} in {hole} is a push fit, {match.text}, {loose}: light blows, or warm {hole}."
