@@ -66,6 +66,8 @@ class Order:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """All steps; those of a group stand before the step in which it goes to its place."""
+        if not self.bodies:
+            return ()
         given = Constraints(
             self.table, self.holding, self.seats, self.reach, self.joints, self._clamped, self._root
         )
