@@ -1,7 +1,7 @@
 """Decimals of the numbers in DXF and STEP files.
 
-Last digits of sines, sums and solved equations differ from processor to processor, and so would the files. What is
-written has fewer decimals than that, and still more than any tolerance.
+Last digits of sines, sums and solved equations differ from processor to processor, and so would files. What
+is written has fewer decimals, and still more than any tolerance.
 """
 
 import re

@@ -58,10 +58,14 @@ def motion_csv(motion: Motion, more: Iterable[Motion] = ()) -> Iterator[bytes]:
         yield from _rows(stretch)
 
 
+DIGITS = "%.10g"
+"""Of a table's numbers: the last digits that a sum of sines has are those of the processor."""
+
+
 def _rows(motion: Motion) -> Iterator[bytes]:
     columns = list(motion.arrays.values())
     for first in range(0, motion.samples, ROWS):
         text = io.StringIO()
         table = np.column_stack([values[first : first + ROWS] for values in columns])
-        np.savetxt(text, table, fmt="%.12g", delimiter=",", comments="")
+        np.savetxt(text, table, fmt=DIGITS, delimiter=",", comments="")
         yield text.getvalue().encode()
