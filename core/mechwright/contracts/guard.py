@@ -53,7 +53,8 @@ OWN = "mechwright"
 """The distribution whose families say what is wrong with a design in words of their own."""
 _OURS = f" of {OWN}: "
 _PACKAGES = frozenset((OWN, "mechwright_cad", "mechwright_cam"))
-"""Whose code says nothing of who has called it."""
+_CONTRACTS = (f"{OWN}.contracts.", f"{OWN}.geometry.")
+"""Modules whose classes plugins make, which say nothing of who does."""
 
 _lock = threading.Lock()
 _inside: list[str] = []
@@ -191,12 +192,17 @@ def _needs_name(error: MechwrightError, who: str) -> bool:
         return False
     if type(error) in {GeometryError, KinematicsError}:
         return True
-    return type(error) in {DesignError, OutputError, ToolError} and _raised_by_us(error)
+    return type(error) in {DesignError, OutputError, ToolError} and _handed_over(error)
 
 
-def _raised_by_us(error: BaseException) -> bool:
-    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
-    return bool(frames) and str(frames[-1].f_globals.get("__name__", "")).partition(".")[0] in _PACKAGES
+def _handed_over(error: BaseException) -> bool:
+    """Whether an error was raised in a class of a contract that the plugin itself has called."""
+    modules = [
+        str(frame.f_globals.get("__name__", "")) for frame, _ in traceback.walk_tb(error.__traceback__)
+    ]
+    callers = [name for name in modules if not name.startswith(_CONTRACTS)]
+    inside = bool(modules) and modules[-1].startswith(_CONTRACTS)
+    return inside and bool(callers) and callers[-1].partition(".")[0] not in _PACKAGES
 
 
 def _at(error: BaseException) -> str:
