@@ -26,7 +26,7 @@ def of_dxf(text: str) -> str:
     lines = text.split("\n")
     for place in range(0, len(lines) - 1, 2):
         value = lines[place + 1]
-        if "." not in value:
+        if not ("." in value or "e" in value):
             continue
         code = int(lines[place])
         if code in _DXF_PLACES:

@@ -40,15 +40,19 @@ def in_time(seconds: float) -> Iterator[None]:
         raise
     except BaseException as error:
         if over:  # a compiled module that it stops while it loads makes an error of its own of it
-            raise TimeUpError(f"takes more than {seconds:g} s") from error
+            raise TimeUpError(_words(seconds)) from error
         raise
+
+
+def _words(seconds: float) -> str:
+    return f"takes more than {seconds:g} s"
 
 
 @contextmanager
 def _alarm(seconds: float, over: list[bool]) -> Iterator[None]:
     def up(*_: object) -> None:
         over.append(True)
-        raise TimeUpError
+        raise TimeUpError(_words(seconds))
 
     before = signal.signal(signal.SIGALRM, up)
     try:
@@ -61,6 +65,8 @@ def _alarm(seconds: float, over: list[bool]) -> Iterator[None]:
 
 @contextmanager
 def _watch(seconds: float, over: list[bool]) -> Iterator[None]:
+    # A thread is sent a class, which has no words but its own.
+    kind = type("TimeUpError", (TimeUpError,), {"__str__": lambda _: _words(seconds)})
     main, lock, ended = threading.get_ident(), threading.Lock(), threading.Event()
 
     def watch() -> None:
@@ -68,9 +74,7 @@ def _watch(seconds: float, over: list[bool]) -> Iterator[None]:
             with lock:
                 if not ended.is_set():
                     over.append(True)
-                    ctypes.pythonapi.PyThreadState_SetAsyncExc(
-                        ctypes.c_ulong(main), ctypes.py_object(TimeUpError)
-                    )
+                    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(main), ctypes.py_object(kind))
 
     _watched.append(True)
     threading.Thread(target=watch, daemon=True).start()
