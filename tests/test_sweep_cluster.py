@@ -8,8 +8,10 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from threading import Thread
 
 import pytest
+import strokes
 import sweep_in_slices
 from by_night import by_night
 from listed_tasks import ListedTasks
@@ -18,6 +20,7 @@ from strokes import bytes_of, swept
 import mechwright
 from mechwright.errors import PluginError
 from mechwright.plugins.host import host
+from mechwright.studies import cluster as studies_cluster
 from mechwright.studies import workers
 from mechwright.studies.run import evaluate
 from mechwright.studies.study import load_study
@@ -123,15 +126,29 @@ def test_a_cluster_shares_one_batch_though_a_worker_is_killed_and_the_scheduler_
     assert bytes_of(tmp_path / "one") == bytes_of(tmp_path / "two")
 
 
-@pytest.mark.parametrize("address", ["nonsense://host:8786", "tcp://host:door"])
-def test_what_is_no_address_is_one_line_at_once(tmp_path, address):
-    pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
+NO_ADDRESSES = (
+    *("", " ", "tcp", "tcp://", "tcp://:", "tcp://:8786", "host", "tcp://host", "host:0", "tcp://host:65536"),
+    *(
+        "tcp://host:-1",
+        "tcp://host:door",
+        "tcp://a:b:c",
+        "nonsense://host:8786",
+        "http://host:80",
+        "inproc://",
+    ),
+    *("tcp://h h:1", "tcp://[::1", "tcp://a..b:1", "tcp://user@host:1", "tcp://host:1/path", "tcp://host:１"),
+)
+
+
+@pytest.mark.parametrize("address", NO_ADDRESSES)
+def test_what_is_no_address_is_one_line_at_once(tmp_path, address, monkeypatch):
+    said = f"{address!r} is no address; give one such as tcp://host:8786"
     done = swept(tmp_path / "out", "--scheduler", address)
-    assert done.exit_code == 1
-    assert re.fullmatch(
-        rf"--scheduler: {address}: is no address: [^\n]+; give one such as tcp://host:8786",
-        str(done.exception),
-    )
+    assert (done.exit_code, str(done.exception)) == (1, f"--scheduler: {said}")
+    if address:
+        monkeypatch.setenv(workers.ADDRESS, address)
+        done = swept(tmp_path / "out")
+        assert (done.exit_code, str(done.exception)) == (1, f"{workers.ADDRESS}: {said}")
 
 
 class Echo:
@@ -173,7 +190,8 @@ def test_a_worker_with_another_program_is_refused_in_one_line(tmp_path, cluster)
     (other / "errors.py").write_text((other / "errors.py").read_text() + "# changed\n")
     port = 20000 + (os.getpid() + 7) % 20000
     scheduler_of(cluster, port)
-    worker_of(cluster, port, tmp_path / "a", {"PYTHONPATH": str(other.parent)})
+    path = os.pathsep.join(filter(None, (str(other.parent), os.environ.get("PYTHONPATH"))))
+    worker_of(cluster, port, tmp_path / "a", {"PYTHONPATH": path})
     done = swept(tmp_path / "out", "--scheduler", f"tcp://127.0.0.1:{port}")
     assert done.exit_code == 1
     assert re.fullmatch(
@@ -182,8 +200,38 @@ def test_a_worker_with_another_program_is_refused_in_one_line(tmp_path, cluster)
 
 
 @by_night
-def test_an_address_where_nobody_answers_is_one_line(tmp_path):
+def test_the_end_of_a_scheduler_is_one_line(tmp_path, cluster, monkeypatch, capfd):
+    monkeypatch.setattr(studies_cluster, "PATIENCE", 5.0)
+    port = 20000 + (os.getpid() + 29) % 20000
+    first = scheduler_of(cluster, port)
+    worker_of(cluster, port, tmp_path / "a")
+
+    def end():
+        tables, until = tmp_path / "out" / "tables", time.monotonic() + 60
+        while not (tables.is_dir() and any(tables.iterdir())) and time.monotonic() < until:
+            time.sleep(0.02)
+        first.kill()
+
+    Thread(target=end, daemon=True).start()
+    text = "keep = 'all'\n# " + "more"
+    path = tmp_path / "strokes.toml"
+    swept_text = (
+        strokes.TEXT.format(more=text)
+        .replace("count = 24", "count = 2000000")
+        .replace("batch = 8", "batch = 20000")
+    )
+    path.write_text(swept_text)
+    done = strokes.swept_file(path, tmp_path / "out", "--scheduler", f"tcp://127.0.0.1:{port}")
+    assert done.exit_code == 1
+    assert "no scheduler answers within 5 s; it had ended: " in str(done.exception)
+    assert "\n" not in str(done.exception)
+    assert "Traceback" not in capfd.readouterr().err
+
+
+@by_night
+def test_an_address_where_nobody_answers_is_one_line(tmp_path, monkeypatch):
     pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
+    monkeypatch.setattr(studies_cluster, "PATIENCE", 3.0)
     done = swept(tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")
     assert done.exit_code == 1
-    assert "no scheduler answers within 10 s" in str(done.exception)
+    assert "no scheduler answers within 3 s" in str(done.exception)

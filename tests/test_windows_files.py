@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,7 +12,8 @@ import windows_files
 from by_night import by_night
 from strokes import TEXT, swept
 
-from mechwright.output import folder
+from mechwright.contracts.alarm import TimeUpError, in_time
+from mechwright.output import folder, staging
 from mechwright.output.folder import Output, write_folder
 from mechwright.output.locking import folder_lock
 from mechwright.plugins.host import host
@@ -36,7 +38,7 @@ Run = Callable[..., tuple[int, str, str]]
 
 @pytest.fixture(autouse=True)
 def refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    windows_files.refuse(monkeypatch.setattr)
+    windows_files.refuse(monkeypatch.setattr, monkeypatch.delattr)
 
 
 def names(place: Path) -> set[str]:
@@ -206,3 +208,78 @@ def test_the_lock_of_a_folder_is_one_writers(tmp_path: Path) -> None:
         assert again
     with folder_lock(tmp_path / "none") as missing:
         assert not missing
+
+
+def test_what_a_dead_process_took_out_is_put_back(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    write_folder(out, Output({"a": b"old"}), "solve", {})
+    out.rename(tmp_path / ".out.mechwright-01234567-old")
+    (tmp_path / ".out.mechwright-89abcdef").mkdir()
+    (tmp_path / ".out.mechwright-89abcdef-life").touch()
+    staging.remove_leftovers(out)
+    assert names(tmp_path) == {"out"}
+    assert (out / "a").read_bytes() == b"old"
+
+
+def test_what_lives_is_left_alone(tmp_path: Path) -> None:
+    with staging.staging_folder(tmp_path / "out") as one, staging.staging_folder(tmp_path / "out") as two:
+        assert one.path.exists()
+        assert two.path.exists()
+        assert len(names(tmp_path)) == 4
+    assert names(tmp_path) == set()
+
+
+def test_a_table_that_a_spreadsheet_has_open_is_told_before_the_work(
+    tmp_path: Path, command_line: Run
+) -> None:
+    assert command_line("solve", PAIR, "-o", tmp_path / "out")[0] == 0
+    with (tmp_path / "out" / "motion.csv").open():
+        code, _, err = command_line("build", PAIR, "-o", tmp_path / "out")
+    assert code == 2
+    assert "close the programs and terminals that have it open" in err
+    assert names(tmp_path) == {"out"}
+
+
+def test_a_path_that_is_too_long_is_one_line(tmp_path: Path, command_line: Run) -> None:
+    folder = tmp_path / ("n" * 100) / ("m" * 150)
+    code, _, err = command_line("solve", PAIR, "-o", folder)
+    assert code == 2
+    assert err.count("\n") == 1
+    assert "cannot be written" in err
+
+
+@pytest.mark.parametrize("name", ["nul.toml", "com1.toml", "a?.toml", "b:c.toml"])
+def test_a_name_that_windows_has_not_is_one_line(name: str, tmp_path: Path, command_line: Run) -> None:
+    code, _, err = command_line("new", "four-bar", "-o", tmp_path / name)
+    assert code == 2
+    assert err.count("\n") == 1
+
+
+def test_a_plugin_has_a_time_without_an_alarm() -> None:
+    def endless() -> None:
+        while True:
+            pass
+
+    with pytest.raises(TimeUpError, match=r"takes more than 0\.2 s"), in_time(0.2):
+        endless()
+    with in_time(5.0), in_time(0.01):
+        time.sleep(0.1)  # what is inside of another one has its time
+    with in_time(0.05):
+        pass
+    time.sleep(0.2)
+
+
+@by_night
+@pytest.mark.parametrize("command", ["check", "solve", "build", "schema", "shop", "families", "new"])
+def test_commands_speak_an_older_encoding(command: str, tmp_path: Path) -> None:
+    more = {
+        "check": [PAIR], "solve": [PAIR, "-o", tmp_path / "out"], "build": [PAIR, "-o", tmp_path / "out"],
+        "schema": ["four-bar"], "new": ["four-bar", "-o", tmp_path / "new.toml"],
+    }.get(command, [])  # fmt: skip
+    (tmp_path / "site").mkdir()
+    environment = windows_files.in_children(tmp_path / "site", dict(os.environ))
+    environment |= {"PYTHONIOENCODING": "cp1252", "PYTHONUTF8": "0", "LC_ALL": "C"}
+    call = [sys.executable, "-m", "mechwright", command, *map(str, more)]
+    done = subprocess.run(call, env=environment, capture_output=True, check=False, timeout=240)
+    assert done.returncode == 0, done.stderr
+    assert b"Traceback" not in done.stderr

@@ -1,17 +1,29 @@
 """What Windows refuses and Linux does not: moving, replacing and removing what a process itself has open.
 
 Python opens files there so that nobody may move or remove them meanwhile, and a folder stays where it is while a
-file below it is open, or somebody works in it. What is open is what Linux says of this process.
+file below it is open, or somebody works in it. What is open is what Linux says of this process. No folder is
+opened, paths have at most 260 characters, devices have names, and there is neither a fork nor an alarm.
 """
 
 import ctypes
 import errno
+import hashlib
 import os
 import shutil
+import signal
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+LONGEST = 260
+"""Characters of a path, with the null at its end."""
+DEVICES = frozenset(
+    ("con", "prn", "aux", "nul", *(f"{name}{n}" for name in ("com", "lpt") for n in range(1, 10)))
+)
+CHARACTERS = frozenset('<>:"|?*')
+OUR_OWN = ("/proc/", "/dev/", "/sys/")
 
 NUMBER = 32
 """Windows' number of the error."""
@@ -25,7 +37,26 @@ def in_children(folder: Path, environment: dict[str, str]) -> dict[str, str]:
     return {**environment, "PYTHONPATH": found}
 
 
-def refuse(put: Callable[[Any, str, Any], object]) -> None:
+def lock_file(folder: Any) -> str:
+    """The file by which a folder is locked where it is not opened."""
+    os.stat(folder)  # noqa: PTH116
+    place = hashlib.sha256(os.path.realpath(folder).encode()).hexdigest()
+    return os.path.join(tempfile.gettempdir(), f"mechwright-{place[:32]}.lock")  # noqa: PTH118
+
+
+def require_name(path: Any) -> None:
+    """Raise an error where Windows has no such name."""
+    text = os.path.abspath(os.fspath(path))  # noqa: PTH100
+    if text.startswith(OUR_OWN):
+        return
+    if len(text) >= LONGEST:
+        raise FileNotFoundError(errno.ENOENT, "the path is too long", text)
+    for part in Path(text).parts[1:]:
+        if part.partition(".")[0].rstrip().lower() in DEVICES or CHARACTERS & set(part) or part[-1] in ". ":
+            raise OSError(errno.EINVAL, "the name is wrong", text)
+
+
+def refuse(put: Callable[[Any, str, Any], object], away: Callable[[Any, str], object] = delattr) -> None:
     """Refuse it in this process; ``put`` sets an attribute, as ``setattr`` or a monkeypatch does."""
     rename, replace, tree = os.rename, os.replace, shutil.rmtree
     library = ctypes.CDLL
@@ -81,6 +112,34 @@ def refuse(put: Callable[[Any, str, Any], object]) -> None:
     put(os, "replace", replaced)
     put(shutil, "rmtree", rmtree)
     put(ctypes, "CDLL", Library)
+    _no_folders(put, passing)
+    for module, name in ((os, "fork"), (os, "register_at_fork"), (signal, "setitimer"), (signal, "SIGALRM")):
+        if hasattr(module, name):
+            away(module, name)
+
+
+def _no_folders(put: Callable[[Any, str, Any], object], passing: list[int]) -> None:
+    """Refuse to open folders, and names that Windows has not."""
+    open_, mkdir = os.open, os.mkdir
+
+    def made(path: Any, *arguments: Any, **more: Any) -> None:
+        require_name(path)
+        mkdir(path, *arguments, **more)
+
+    def opened_file(path: Any, flags: int, *arguments: Any, **more: Any) -> int:
+        require_name(path)
+        if not passing[0] and Path(path).is_dir():
+            raise PermissionError(errno.EACCES, "permission denied", os.fspath(path))
+        return open_(path, flags, *arguments, **more)
+
+    put(os, "mkdir", made)
+    put(os, "open", opened_file)
+    from mechwright.contracts.file_names import path_fault
+    from mechwright.output import locking
+
+    put(locking, "FOLDERS_OPEN", False)
+    put(locking, "_opened", lambda folder: os.open(lock_file(folder), os.O_RDWR | os.O_CREAT))
+    put(path_fault, "__defaults__", ("win32",))
 
 
 def require_closed(path: Any) -> None:

@@ -4,6 +4,7 @@ import contextlib
 import ctypes
 import platform
 from functools import cache
+from importlib import import_module
 
 _CORE_NAMES = ("scipy_openblas_get_corename64_", "scipy_openblas_get_corename", "openblas_get_corename")
 """Functions of OpenBLAS, by how numpy was built."""
@@ -23,10 +24,8 @@ def kernels() -> str:
 
 
 def _core_name() -> str:
-    from numpy.linalg import _umath_linalg
-
-    with contextlib.suppress(OSError, AttributeError):
-        library = ctypes.CDLL(_umath_linalg.__file__)
+    with contextlib.suppress(OSError, AttributeError, ImportError):
+        library = ctypes.CDLL(import_module("numpy.linalg._umath_linalg").__file__)
         for name in _CORE_NAMES:
             if hasattr(library, name):
                 function = getattr(library, name)

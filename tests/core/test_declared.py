@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import math
 import re
+import signal
 import sys
 import time
 import types
@@ -303,7 +304,7 @@ def test_words_of_a_value_are_few_and_come_whatever_it_does() -> None:
     assert Declared(finite=False).fault(math.nan, float) == ("", "is nan; a number is wanted")
 
 
-@pytest.mark.skipif(not hasattr(guard.signal, "setitimer"), reason="the system has no alarm")
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="the system has no alarm")
 def test_the_end_of_the_time_is_told_whatever_is_made_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
     def waits() -> None:
         try:

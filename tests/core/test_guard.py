@@ -1,6 +1,7 @@
 """Plugins that do what their contract does not allow: one line says who, where, and what was wrong."""
 
 import json
+import signal
 import sys
 import threading
 import time
@@ -105,11 +106,11 @@ def test_errors_name_their_line() -> None:
     assert "NotImplementedError" in told("parts", lambda _: (_ for _ in ()).throw(NotImplementedError))
 
 
-@pytest.mark.skipif(not hasattr(guard.signal, "setitimer"), reason="the system has no alarm")
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="the system has no alarm")
 def test_an_endless_call_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(guard.LIMIT, "0.2")
     assert told("solve", endless).startswith("takes more than 0.2 s; MECHWRIGHT_PLUGIN_SECONDS ")
-    assert guard.signal.getitimer(guard.signal.ITIMER_REAL)[0] == 0
+    assert signal.getitimer(signal.ITIMER_REAL)[0] == 0
     for wrong in ("x", "0", "-1", "nan", "inf"):
         monkeypatch.setenv(guard.LIMIT, wrong)
         with pytest.raises(MechwrightError, match="is no time in seconds above 0"):
@@ -204,7 +205,7 @@ def unclosed(_: object) -> list[Part]:
     return [Part("open", Outline(Loop((Line((0.0, 0.0), (1.0, 0.0), "a"),))), 5.0, "aluminium")]
 
 
-@pytest.mark.parametrize("size", [1e-9, 1e9])
+@pytest.mark.parametrize("size", [1e-3, 1e9])
 def test_parts_can_be_made(size: float) -> None:
     assert told("parts", lambda _: None).startswith("gives None; a sequence of Part is wanted")
     assert told("parts", lambda _: [plate(), 3]).startswith("[1] of what it gives is 3; a Part is wanted")

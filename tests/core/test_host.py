@@ -1,6 +1,7 @@
 """The plugin host: what is broken becomes a warning with a name, and the rest goes on."""
 
 import os
+import signal
 import subprocess
 import sys
 from importlib.metadata import Distribution, EntryPoint, entry_points
@@ -128,7 +129,7 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
     assert list(host.of(Family)) == ["cam"]
 
 
-@pytest.mark.skipif(not hasattr(guard.signal, "setitimer"), reason="the system has no alarm")
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="the system has no alarm")
 @pytest.mark.parametrize(
     ("source", "where"),
     [

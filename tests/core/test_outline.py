@@ -6,6 +6,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mechwright.arrays import GRID
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, circle
 from mechwright.testing import assert_points_close, assert_same_outline
@@ -212,7 +213,7 @@ def test_curves_of_a_loop_are_flattened_at_once_as_each_is(degree):
     loop = Loop(tuple(sides))
     for tolerance in (1e-3, 0.1):
         wanted = np.concatenate([side.flatten(tolerance)[:-1] for side in sides])
-        assert loop.flatten(tolerance) == pytest.approx(wanted, abs=1e-12)
+        assert loop.flatten(tolerance) == pytest.approx(wanted, abs=GRID / 2)
 
 
 def test_what_encloses_nothing_is_told_by_its_size():

@@ -26,7 +26,7 @@ READS_ITSELF = {
     "core/mechwright/plugins/host.py",
     "core/mechwright/standards/table.py",
     "core/mechwright/studies/checks.py",
-    "core/mechwright/studies/task.py",
+    "core/mechwright/studies/fingerprint.py",
     "cam/mechwright_cad/live/server.py",
 }
 

@@ -1,7 +1,7 @@
 """Decimals of the numbers in DXF and STEP files.
 
-Last digits of sines, sums and solved equations differ from processor to processor, and so would the files.
-What is written has fewer decimals than that, and still more than any tolerance.
+Last digits of sines, sums and solved equations differ from processor to processor, and so would files. What
+is written has fewer decimals, and still more than any tolerance.
 """
 
 import re
@@ -26,7 +26,7 @@ def of_dxf(text: str) -> str:
     lines = text.split("\n")
     for place in range(0, len(lines) - 1, 2):
         value = lines[place + 1]
-        if "." not in value:
+        if not ("." in value or "e" in value):
             continue
         code = int(lines[place])
         if code in _DXF_PLACES:

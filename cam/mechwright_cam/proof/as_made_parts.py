@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, turned
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
 from mechwright.contracts.part import Part
 from mechwright_cam.proof.as_made import as_made_sections, wall_sweeps
@@ -112,9 +112,7 @@ def _moved(section: MadeSection, shift: Array) -> MadeSection:
 
 def _turned_back(points: Array, one: Placed) -> Array:
     """Points (..., 2) of a nest in the coordinates of one of its parts."""
-    c, s = np.cos(one.angle), np.sin(one.angle)
-    back: Array = (points - (one.x, one.y)) @ np.array([[c, -s], [s, c]])
-    return back
+    return turned(points - (one.x, one.y), -one.angle)
 
 
 def _placed_back(ring: MadeRing, one: Placed) -> MadeRing:

@@ -10,6 +10,7 @@ from functools import cached_property
 
 import shapely
 
+from mechwright.arrays import turned
 from mechwright.contracts.details import moved
 from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline
@@ -37,8 +38,7 @@ class Placed:
 
     def back(self, shape: shapely.Geometry) -> shapely.Geometry:
         """A shape of the nest in the part's own coordinates."""
-        c, s = math.cos(self.angle), math.sin(self.angle)
-        return shapely.transform(shape, lambda p: (p - (self.x, self.y)) @ [[c, -s], [s, c]])
+        return shapely.transform(shape, lambda p: turned(p - (self.x, self.y), -self.angle))
 
 
 @dataclass(frozen=True, repr=False)

@@ -16,7 +16,6 @@ The keyboard (:mod:`~mechwright.contracts.stops`), and a want of memory, pass th
 """
 
 import os
-import signal
 import sys
 import threading
 import traceback
@@ -28,6 +27,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.alarm import TimeUpError as TimeUpError
+from mechwright.contracts.alarm import in_time
 from mechwright.contracts.ground import kept, leave_behind, opened_again
 from mechwright.contracts.stops import UnaskedError, listening
 from mechwright.errors import (
@@ -52,7 +53,8 @@ OWN = "mechwright"
 """The distribution whose families say what is wrong with a design in words of their own."""
 _OURS = f" of {OWN}: "
 _PACKAGES = frozenset((OWN, "mechwright_cad", "mechwright_cam"))
-"""Whose code says nothing of who has called it."""
+_CONTRACTS = (f"{OWN}.contracts.", f"{OWN}.geometry.")
+"""Modules whose classes plugins make, which say nothing of who does."""
 
 _lock = threading.Lock()
 _inside: list[str] = []
@@ -64,10 +66,6 @@ _files: list[tuple[int, int]] = []
 
 class UnsoundError(Exception):
     """What is wrong with an answer, in words that follow who gave it."""
-
-
-class TimeUpError(BaseException):
-    """The time of a call is over; not an Exception, so that a plugin that catches any does not go on."""
 
 
 def now() -> str:
@@ -96,7 +94,7 @@ def watched(who: str, seconds: float, code: types.CodeType) -> Iterator[bool]:
     ours = _OURS in who
     ground = nullcontext() if ours else kept(code.co_filename, code.co_firstlineno)
     try:
-        with _aside(who), nullcontext() if ours else listening(), _in_time(seconds), ground:
+        with _aside(who), nullcontext() if ours else listening(), in_time(seconds), ground:
             yield len(_inside) == 1
     except (MemoryError, KeyboardInterrupt):
         raise
@@ -175,7 +173,7 @@ def loading(who: str, module: str) -> Iterator[None]:
 
     Raises TimeUpError in the module.
     """
-    with _aside(who), listening(), _in_time(LOADING), kept(f"{module}.py", 1):
+    with _aside(who), listening(), in_time(LOADING), kept(f"{module}.py", 1):
         yield
 
 
@@ -194,12 +192,17 @@ def _needs_name(error: MechwrightError, who: str) -> bool:
         return False
     if type(error) in {GeometryError, KinematicsError}:
         return True
-    return type(error) in {DesignError, OutputError, ToolError} and _raised_by_us(error)
+    return type(error) in {DesignError, OutputError, ToolError} and _handed_over(error)
 
 
-def _raised_by_us(error: BaseException) -> bool:
-    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
-    return bool(frames) and str(frames[-1].f_globals.get("__name__", "")).partition(".")[0] in _PACKAGES
+def _handed_over(error: BaseException) -> bool:
+    """Whether an error was raised in a class of a contract that the plugin itself has called."""
+    modules = [
+        str(frame.f_globals.get("__name__", "")) for frame, _ in traceback.walk_tb(error.__traceback__)
+    ]
+    callers = [name for name in modules if not name.startswith(_CONTRACTS)]
+    inside = bool(modules) and modules[-1].startswith(_CONTRACTS)
+    return inside and bool(callers) and callers[-1].partition(".")[0] not in _PACKAGES
 
 
 def _at(error: BaseException) -> str:
@@ -274,36 +277,3 @@ def time_limit() -> float:
     if not 0 < seconds < 1e9:
         raise DesignError(f"{LIMIT}: {said!r} is no time in seconds above 0; write one, or leave it out")
     return seconds
-
-
-@contextmanager
-def _in_time(seconds: float) -> Iterator[None]:
-    """Raise TimeUpError after some seconds, where the system has an alarm and this thread hears it."""
-    if (
-        not seconds
-        or not hasattr(signal, "setitimer")
-        or threading.current_thread() is not threading.main_thread()
-        or signal.getitimer(signal.ITIMER_REAL)[0]  # a call inside of another one has what that has left
-    ):
-        yield
-        return
-
-    over = []
-
-    def up(*_: object) -> None:
-        over.append(True)
-        raise TimeUpError(f"takes more than {seconds:g} s")
-
-    before = signal.signal(signal.SIGALRM, up)
-    try:
-        signal.setitimer(signal.ITIMER_REAL, seconds)
-        yield
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:
-        if over:  # a compiled module that it stops while it loads makes an error of its own of it
-            raise TimeUpError(f"takes more than {seconds:g} s") from error
-        raise
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mechwright.arrays import turned
 from mechwright.contracts.details import Chamfer, Engraving, Thread, band_of
 from mechwright.contracts.fitting_marks import rings
 from mechwright.contracts.part import Part
@@ -122,7 +123,7 @@ def _place(free: "shapely.Geometry", text: str, height: float) -> tuple[Point, f
 
     for angle in _angles(free):
         c, s = math.cos(angle), math.sin(angle)
-        level = shapely.transform(free, lambda p, c=c, s=s: p @ np.array([[c, -s], [s, c]]))
+        level = shapely.transform(free, lambda p, angle=angle: turned(p, -angle))
         room = _eroded(level, lettering(text, height))
         if shapely.area(room) > NEAR**2:
             deepest = shapely.maximum_inscribed_circle(room, NEAR)

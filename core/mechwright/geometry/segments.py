@@ -17,7 +17,7 @@ from functools import cache, cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechwright.arrays import Array
+from mechwright.arrays import Array, turned
 from mechwright.errors import GeometryError
 
 Point = tuple[float, float]
@@ -30,9 +30,8 @@ _MAX_DEGREE = 25
 
 
 def _turned(points: Array, x: float, y: float, angle: float) -> Array:
-    c, s = math.cos(angle), math.sin(angle)
-    turned: Array = points @ np.array([[c, s], [-s, c]]) + (x, y)
-    return turned
+    moved: Array = np.add(turned(points, angle), (x, y))
+    return moved
 
 
 def _point(row: Array) -> Point:

@@ -14,12 +14,14 @@ from typing import Any, TypeVar
 
 from mechwright.contracts.file_names import file_key, name_fault, path_fault
 from mechwright.errors import OutputError
+from mechwright.output import locking
 from mechwright.output.staging import (
     OLD,
     folder_to_disk,
     move,
     removed,
     staging_folder,
+    temporary_name,
     to_disk,
     write_through,
 )
@@ -133,8 +135,24 @@ def _written(path: Path, content: bytes | Iterable[bytes]) -> str:
 
 
 def check_folder(target: Path) -> None:
-    """Raise OutputError if :func:`write_folder` would refuse ``target``, before any work."""
-    _examined(target)
+    """Raise OutputError if :func:`write_folder` would refuse ``target``, before any work.
+
+    Where a system moves nothing that is open, the folder is moved and moved back: a table that a spreadsheet
+    shows would otherwise be noticed after all the work.
+    """
+    target, _ = _examined(target)
+    if locking.FOLDERS_OPEN or not target.exists():
+        return
+    try:
+        with locking.folder_lock(target.parent):
+            aside = temporary_name(target)
+            aside = aside.with_name(
+                aside.name + OLD
+            )  # which the next run puts back, should this one die here
+            move(target, aside)
+            move(aside, target)
+    except OSError as error:
+        raise _refusal(target, error) from error
 
 
 def _examined(target: Path) -> tuple[Path, dict[str, dict[str, str]]]:

@@ -6,9 +6,11 @@ folder lock
     Whoever has it is the only one who gives names in a folder, for the moment of a rename. It opens nothing
     that is moved: Windows moves nothing that is open.
 life lock
-    Of a staging folder: a process that lives fills it. Windows has none, and nothing is removed there.
+    Of a staging folder: a process that lives fills it. Windows opens no folders: there a file beside it has
+    the lock, and goes with it.
 """
 
+import contextlib
 import errno
 import hashlib
 import os
@@ -82,17 +84,21 @@ def try_lock(handle: int) -> bool:
     return True
 
 
+FOLDERS_OPEN = sys.platform != "win32"
+"""Whether the system opens folders, and moves what is open."""
+LIFE = "-life"
+"""Behind the name of a staging folder: the file that has its life lock where folders are not opened."""
+
+
 @contextmanager
 def life_lock(path: Path) -> Iterator[bool]:
     """Show that a file or folder is somebody's as long as the block, or the process, lasts.
 
     False where somebody else has the lock, or has removed the path meanwhile for being nobody's.
     """
-    if sys.platform == "win32":
-        yield True
-        return
+    holder = path if FOLDERS_OPEN else path.with_name(path.name + LIFE)
     try:
-        handle = os.open(path, os.O_RDONLY)
+        handle = os.open(holder, os.O_RDONLY if FOLDERS_OPEN else os.O_RDWR | os.O_CREAT)
     except FileNotFoundError:
         yield False
         return
@@ -101,19 +107,26 @@ def life_lock(path: Path) -> Iterator[bool]:
         return
     try:
         try:
-            ours = try_lock(handle) and path.exists() and os.path.samestat(path.stat(), os.fstat(handle))
+            ours = try_lock(handle) and path.exists() and os.path.samestat(holder.stat(), os.fstat(handle))
         except OSError:  # some network disks have no locks: then nobody removes anything either
             ours = True
         yield ours
     finally:
         os.close(handle)
+        if not FOLDERS_OPEN:
+            with contextlib.suppress(OSError):  # whoever looks at it just now removes it
+                holder.unlink()
 
 
 def lives(path: Path) -> bool:
     """Whether a process that lives has the life lock; raises OSError where that cannot be seen."""
-    if sys.platform == "win32":
-        raise OSError(errno.ENOTSUP, "no life locks")
-    handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    if FOLDERS_OPEN:
+        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    else:
+        try:
+            handle = os.open(path.with_name(path.name.removesuffix(LIFE) + LIFE), os.O_RDWR)
+        except FileNotFoundError:
+            return False
     try:
         return not try_lock(handle)
     finally:

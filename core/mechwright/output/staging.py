@@ -2,7 +2,7 @@
 
 A staging folder has a life lock as long as its process fills it; what has the name of one and no lock is
 nobody's any more. Files and folders are moved to their places closed, under the lock of the folder that they
-stand in. Where the system has no locks nothing is removed.
+stand in. Where a disk has no locks nothing is removed.
 """
 
 import contextlib
@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from mechwright.output.locking import folder_lock, life_lock, lives
+from mechwright.output.locking import LIFE, folder_lock, life_lock, lives
 
 MARK = ".mechwright-"
 """Between the name of a target and the random end of the name of what is made for it: nobody else's."""
@@ -150,10 +150,8 @@ def remove_leftovers(target: Path) -> None:
 
 def _remove_dead(target: Path) -> None:
     """The same under the folder lock, without which what stands beside a target may be of the living."""
-    if sys.platform == "win32":
-        return
     # What stands beside a target is many files at times, and none of them is opened but by its name.
-    ours = re.compile(rf"\.{re.escape(target.name)}{re.escape(MARK)}[0-9a-f]{{8}}({OLD})?")
+    ours = re.compile(rf"\.{re.escape(target.name)}{re.escape(MARK)}[0-9a-f]{{8}}({OLD}|{LIFE})?")
     with contextlib.suppress(OSError):
         for entry in [one for one in target.parent.iterdir() if ours.fullmatch(one.name)]:
             with contextlib.suppress(OSError):

@@ -13,6 +13,9 @@ from mechwright.pipeline.page import FileName, Page
 TABLE, SUMMARY = "motion.csv", "summary.json"
 """The files."""
 
+DIGITS = "%.10g"
+"""Of numbers in both: the last digits that a sum of sines has are those of the processor."""
+
 ROWS = 1_000
 """Rows of a table that are written together."""
 
@@ -37,7 +40,8 @@ class MotionTables(Page):
         stretches = build.stretches()
         first = next(stretches)
         figures = {
-            name: {"value": scalar.value, "unit": scalar.unit} for name, scalar in first.scalars.items()
+            name: {"value": float(DIGITS % scalar.value), "unit": scalar.unit}
+            for name, scalar in first.scalars.items()
         }
         return {
             TABLE: motion_csv(first, stretches),
@@ -46,7 +50,7 @@ class MotionTables(Page):
 
 
 def motion_csv(motion: Motion, more: Iterable[Motion] = ()) -> Iterator[bytes]:
-    """The channels as CSV, one row per sample, twelve significant digits, header ``name [unit]``.
+    """The channels as CSV, one row per sample, ten significant digits, header ``name [unit]``.
 
     ``more`` are stretches that follow. The table comes in pieces: the text of a million samples takes more
     memory than the motion, and the motion more than a stretch.
@@ -63,5 +67,5 @@ def _rows(motion: Motion) -> Iterator[bytes]:
     for first in range(0, motion.samples, ROWS):
         text = io.StringIO()
         table = np.column_stack([values[first : first + ROWS] for values in columns])
-        np.savetxt(text, table, fmt="%.12g", delimiter=",", comments="")
+        np.savetxt(text, table, fmt=DIGITS, delimiter=",", comments="")
         yield text.getvalue().encode()

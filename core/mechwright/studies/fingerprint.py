@@ -6,7 +6,9 @@ from functools import cache
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
+from mechwright.contracts.family import Family
 from mechwright.kernels import kernels
 from mechwright.plugins.host import host
 
@@ -24,15 +26,25 @@ def unlike(said: str, own: str) -> str:
     return f"it has {said}; here it is {own}: {remedy}"
 
 
-@cache
 def fingerprint(family: str) -> str:
-    """What tells installations apart whose tables could differ: versions, and the program's text."""
+    """What tells installations apart whose tables of a family could differ."""
+    return fingerprint_of(host().family(family))
+
+
+def fingerprint_of(family: Family[Any]) -> str:
+    """The same of a family that is at hand."""
+    return _fingerprint(type(family).__module__.partition(".")[0])
+
+
+@cache
+def _fingerprint(package: str) -> str:
+    """Versions, the text of the program and of a family's package, and the processor's kernels."""
     found = hashlib.sha256()
-    for package in ("mechwright", type(host().family(family)).__module__.partition(".")[0]):
-        root = Path(str(import_module(package).__file__)).parent
+    for name in ("mechwright", package):
+        root = Path(str(import_module(name).__file__)).parent
         files = {path.relative_to(root).as_posix(): path for path in root.rglob("*.py")}
-        for name, path in sorted(files.items()):
-            found.update(name.encode())
+        for place, path in sorted(files.items()):
+            found.update(place.encode())
             found.update(path.read_bytes())
     said = [f"{library} {version(library)}" for library in LIBRARIES]
     own = f"program {found.hexdigest()[:12]}"

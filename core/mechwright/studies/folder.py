@@ -18,7 +18,7 @@ from mechwright.output.staging import move
 from mechwright.plugins.host import Host
 from mechwright.reading import read_bytes, regular
 from mechwright.scripting.provenance import run_facts
-from mechwright.studies.fingerprint import fingerprint
+from mechwright.studies.fingerprint import fingerprint_of
 from mechwright.studies.shard import Counts, counts_of
 from mechwright.studies.slice_file import saved_in, slice_of, work_of
 from mechwright.studies.stamp import Stamp
@@ -57,7 +57,7 @@ class SweepFolder:
     def __init__(self, path: Path, study: Study, host: Host) -> None:
         self.path, self.study, self.host = path, study, host
         self._whole: set[str] = set()
-        own = {"study": study.digest, "program": fingerprint(study.family.name), "batch": study.batch}
+        own = {"study": study.digest, "program": fingerprint_of(study.family), "batch": study.batch}
         found = self._begun()
         if found is None:
             self.write(Output({BEGUN: _said(own)}))

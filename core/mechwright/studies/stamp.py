@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Self
 
-from mechwright.studies.fingerprint import fingerprint
+from mechwright.studies.fingerprint import fingerprint_of
 from mechwright.studies.study import Study
 
 STAMP, SEAL = b"mechwright.stamp", b"mechwright.seal"
@@ -47,7 +47,7 @@ class Stamp:
     @classmethod
     def of(cls, study: Study, first: int, designs: int, number: int | None = None) -> Self:
         """That of some designs of a study, as this program makes their file."""
-        return cls(study.digest, fingerprint(study.family.name), first, designs, number)
+        return cls(study.digest, fingerprint_of(study.family), first, designs, number)
 
     @property
     def metadata(self) -> dict[bytes, str]:

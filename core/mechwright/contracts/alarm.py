@@ -1,0 +1,92 @@
+"""A time for a piece of work in the main thread: by the system's alarm, or by a thread where it has none."""
+
+import ctypes
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+class TimeUpError(BaseException):
+    """The time of a call is over; not an Exception, so that a plugin that catches any does not go on."""
+
+
+_watched: list[bool] = []
+"""Whether a thread watches the time of a call."""
+_SETTLED = 0.1
+"""Seconds within which an error that was sent to a thread has come there."""
+
+
+@contextmanager
+def in_time(seconds: float) -> Iterator[None]:
+    """Raise TimeUpError after some seconds, where this is the main thread.
+
+    A call inside of another one has what that has left. Without an alarm, on Windows, a thread sends it,
+    which comes when a line of Python is done, and not in the middle of a long wait.
+    """
+    if not seconds or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    alarm = hasattr(signal, "setitimer")
+    if signal.getitimer(signal.ITIMER_REAL)[0] if alarm else _watched:
+        yield
+        return
+    over: list[bool] = []
+    try:
+        with _alarm(seconds, over) if alarm else _watch(seconds, over):
+            yield
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        if over:  # a compiled module that it stops while it loads makes an error of its own of it
+            raise TimeUpError(_words(seconds)) from error
+        raise
+
+
+def _words(seconds: float) -> str:
+    return f"takes more than {seconds:g} s"
+
+
+@contextmanager
+def _alarm(seconds: float, over: list[bool]) -> Iterator[None]:
+    def up(*_: object) -> None:
+        over.append(True)
+        raise TimeUpError(_words(seconds))
+
+    before = signal.signal(signal.SIGALRM, up)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@contextmanager
+def _watch(seconds: float, over: list[bool]) -> Iterator[None]:
+    # A thread is sent a class, which has no words but its own.
+    kind = type("TimeUpError", (TimeUpError,), {"__str__": lambda _: _words(seconds)})
+    main, lock, ended = threading.get_ident(), threading.Lock(), threading.Event()
+
+    def watch() -> None:
+        if not ended.wait(seconds):
+            with lock:
+                if not ended.is_set():
+                    over.append(True)
+                    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(main), ctypes.py_object(kind))
+
+    _watched.append(True)
+    threading.Thread(target=watch, daemon=True).start()
+    come = False
+    try:
+        yield
+    except TimeUpError:
+        come = True
+        raise
+    finally:
+        with lock:
+            ended.set()
+        _watched.clear()
+        if over and not come:  # the work ended as the error was sent, which comes now
+            time.sleep(_SETTLED)
