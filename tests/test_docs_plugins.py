@@ -17,6 +17,7 @@ import mechwright_cad
 import mechwright_cam
 from mechwright import Build, Design, Host, Instance, Loop, Outline, Part, Plugin, Stage, Wanted, circle
 from mechwright.contracts.finding import errors
+from mechwright.contracts.fits import hole_fit
 from mechwright.designs.design import load
 from mechwright.plugins.host import HOOK
 
@@ -130,7 +131,7 @@ def test_the_family_moves_is_made_and_is_refused_where_it_has_to_be(flywheel):
     assert list(family.check(family.Params(bore=70))) == []
     assert flywheel.motion.channels["time"].values[-1] == pytest.approx(0.1)
     (part,) = flywheel.parts
-    assert part.outline.area == pytest.approx(math.pi * (40**2 - 5**2))
+    assert part.outline.area == pytest.approx(math.pi * (40**2 - (hole_fit(10, "H7").middle / 2) ** 2))
 
 
 def test_the_control_spells_and_reads_its_own_words():

@@ -8,7 +8,7 @@ from mechwright.machine.stack_inspection import AxialStacks
 from mechwright.machine.stacks_page import StacksPage
 from mechwright.machine.table import MachineTable
 from mechwright.pipeline.file_names import FileNames
-from mechwright.pipeline.fits import FitsSaid
+from mechwright.pipeline.fits import DeclaredFits
 from mechwright.pipeline.tables import MotionTables
 from mechwright.pipeline.tolerances import ToleranceKeys, TolerancePage, TolerancesTable
 from mechwright.plugins.hookspecs import hookimpl
@@ -21,7 +21,7 @@ def mechwright_register() -> list[type[Plugin]]:
         FileNames,
         MotionTables,
         FitsTable,
-        FitsSaid,
+        DeclaredFits,
         TolerancesTable,
         ToleranceKeys,
         TolerancePage,

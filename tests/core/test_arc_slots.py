@@ -118,7 +118,7 @@ def test_screws_that_point_up_stand_below_their_washers():
 def test_a_clamp_holds_the_friction_of_its_preload():
     clamp = clamps(8.0, 6.0, 8.0)[0]
     assert clamp.size.size == 5
-    assert clamp.holds == pytest.approx(0.12 * 0.7 * 640 * math.pi / 4 * (5 - 0.9382 * 0.8) ** 2)
+    assert clamp.holds == pytest.approx(0.12 * 0.7 * 640 * math.pi / 4 * (5 - 0.938194 * 0.8) ** 2)
 
 
 def test_a_scale_has_a_mark_for_each_place_beside_the_washer():

@@ -23,7 +23,7 @@ from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.geometry.keyway import Opening
 from mechwright.mechanics.mating.choice import Assembled
 from mechwright.pipeline import Build, Wanted
-from mechwright.pipeline.fits import FitsSaid
+from mechwright.pipeline.fits import DeclaredFits
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
 
@@ -170,12 +170,12 @@ def test_a_wrong_table_is_told_in_one_line(table, said):
 
 def test_a_bought_part_without_limits_is_an_error_of_its_author():
     with Build(ROOT / "examples/four-bar-machine.toml", host(), Wanted("check")) as build:
-        assert list(FitsSaid().findings(build)) == []
+        assert list(DeclaredFits().findings(build)) == []
         known = build.parts
         coupling = replace(known["coupling"].bought, fits=())
         silent = replace(known["coupling"], bought=coupling)
         build._kept["parts"] = Named(silent if part.name == "coupling" else part for part in known)
-        found = FitsSaid().findings(build)
+        found = DeclaredFits().findings(build)
     assert [one.code for one in found] == ["fit.missing"] * 2
     assert found[0].message == (
         "shaft goes into coupling, ⌀6 / 6 h6, and coupling says no limits of its size"

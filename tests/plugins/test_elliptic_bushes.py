@@ -49,10 +49,10 @@ def test_bushes_are_where_something_turns_and_shafts_that_stand_still_are_presse
     base = bores(parts["base"])
     assert base["shaft-2"].fit == press
     assert (base["shaft-4"].fit == press) == ("base" in bushed)
-    assert (base["shaft-5"].fit, base["shaft-5"].diameter) == (None, 12)
+    assert (base["shaft-5"].fit.name, base["shaft-5"].fit.size) == ("H7", 12)
     for name in ("shaft-4", "shaft-5"):
         (first, *_) = parts[name].turned.steps
-        assert (first.fit.name == "m6", first.length == 20) == ((name in on_shaft,) * 2)
+        assert (first.fit.name == "r6", first.length == 20) == ((name in on_shaft,) * 2)
 
 
 @pytest.mark.parametrize(

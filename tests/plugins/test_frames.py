@@ -14,9 +14,11 @@ from typer.testing import CliRunner
 from mechwright import host
 from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.fit_settings import Fits
 from mechwright.designs.design import design_of
 from mechwright.machine.frame.guard import heights
 from mechwright.machine.frame.sweep import space_of
+from mechwright.mechanics.mating.fitted import with_fits
 from mechwright.remedies import tried
 from mechwright.testing import commands
 
@@ -88,7 +90,7 @@ def test_what_stands_is_clear_of_what_moves_by_more_than_play(name):
 def test_a_design_without_a_frame_is_as_its_family_gives_it():
     found = design("elliptic-pair")
     assert found.surroundings == ()
-    assert [*found.parts()] == [*found.family.parts(found.params)]
+    assert [*found.parts()] == with_fits(found.family.parts(found.params), found.solve(2), Fits())
     assert set(found.solve(3).poses) == {"gear-2", "gear-4", "coupler"}
 
 

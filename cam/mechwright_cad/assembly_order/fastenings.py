@@ -13,7 +13,7 @@ import numpy as np
 from mechwright.contracts.bodies import rigid
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
-from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, Match, matches, rounds_of
+from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, ROOM, Match, matches, rounds_of
 from mechwright_cad.assembly_order.groups import BodyLayers, is_bearing
 from mechwright_cad.bodies import Body, is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint
@@ -79,7 +79,7 @@ class Seats:
         if not self.is_fast(match):
             return None
         if match.unsaid:
-            return None
+            return "bonded" if least <= ROOM else None
         if least < 0:
             return "pressed"
         return "bonded" if needs_compound(*(self.bodies[k].part for k in (match.pin, match.hole))) else None

@@ -1,13 +1,13 @@
 """Plates that nobody sells so thick."""
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from mechwright.contracts.finding import Change, Finding, Stage, at_stage
-from mechwright.contracts.part import Part
-from mechwright.machine.made import settings_of
 from mechwright.pipeline import Build, Inspection
-from mechwright.remedies.keys import thickness_keys
-from mechwright.standards.stock import AS_THICK, is_sold, plate_stock, plate_within
+
+if TYPE_CHECKING:
+    from mechwright.contracts.part import Part
 
 
 class SoldPlates(Inspection):
@@ -20,6 +20,10 @@ class SoldPlates(Inspection):
 
     def findings(self, build: Build) -> Sequence[Finding]:
         """One for each thickness that is not sold: a warning where a key gives it, else a note."""
+        from mechwright.machine.made import settings_of
+        from mechwright.remedies.keys import thickness_keys
+        from mechwright.standards.stock import AS_THICK, is_sold
+
         in_hand = settings_of(build).plates
         odd: dict[tuple[str, float], list[Part]] = {}
         for part in build.parts:
@@ -33,7 +37,7 @@ class SoldPlates(Inspection):
         return at_stage(self.stage, found)
 
 
-def _fault(parts: Sequence[Part], thickness: float, material: str, keys: Sequence[str]) -> Finding:
+def _fault(parts: "Sequence[Part]", thickness: float, material: str, keys: Sequence[str]) -> Finding:
     names = ", ".join(dict.fromkeys(part.name for part in parts))
     near = list(_nearest(thickness, material))
     above = [one for one in near if one > thickness]
@@ -57,6 +61,8 @@ def _fault(parts: Sequence[Part], thickness: float, material: str, keys: Sequenc
 
 def _nearest(thickness: float, material: str) -> Iterator[float]:
     """The sold thicknesses next to one, mm, the smaller first."""
+    from mechwright.standards.stock import plate_stock, plate_within
+
     below = plate_within(thickness, material)
     if below is not None:
         yield below

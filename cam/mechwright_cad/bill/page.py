@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mechwright.machine.made import electrics_for
 from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
 from mechwright.pipeline import Build, FileName, Page, RawStock, Wanted
@@ -38,6 +37,7 @@ class BillOfMaterials(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """Both files; none for a mechanism without parts."""
+        from mechwright.machine.made import electrics_for
         from mechwright_cad.assembly_order.plan import plan_of
         from mechwright_cad.bill.items import numbers_of
         from mechwright_cad.bill.lines import lines_of

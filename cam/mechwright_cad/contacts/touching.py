@@ -22,7 +22,6 @@ import shapely
 from mechwright.arrays import Array
 from mechwright.contracts.bodies import rigid
 from mechwright.contracts.motion import Motion
-from mechwright.contracts.part import Bore
 from mechwright.mechanics.mating.rounds import ALIKE, CONTACT, NEAR, PARALLEL, Round, rounds_of
 from mechwright_cad.assembly_order.groups import BodyLayers
 from mechwright_cad.assembly_order.layers import UP, Layer
@@ -152,13 +151,7 @@ class Touching:
 
     def _vacant(self, k: int, hole: Round) -> bool:
         """Whether a part says that a hole of its own may stay empty."""
-        body = self.bodies[k]
-        turn, place = body.poses.rotation[self.sample], body.poses.position[self.sample]
-        x, y, _ = turn.T @ (hole.at - place)
-        return any(
-            isinstance(bore, Bore) and bore.name in body.part.vacant and math.dist(bore.centre, (x, y)) < NEAR
-            for bore in (body.part.features if body.part.vacant else ())
-        )
+        return hole.face in self.bodies[k].part.vacant
 
     def _ends(self) -> Iterator[Gap]:
         """Ends of upright turned pins that stand a little out of the outermost hole that turns with them."""

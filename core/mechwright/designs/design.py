@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from mechwright.contracts.family import Family
 from mechwright.contracts.file_names import file_key
 from mechwright.contracts.finding import Change, Finding, Stage, errors
+from mechwright.contracts.fit_settings import Fits
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part, check_name, name_from
@@ -39,8 +40,6 @@ from mechwright.designs.tables import read_table, unknown
 from mechwright.designs.text import design_text
 from mechwright.errors import DesignError, GeometryError, PluginError
 from mechwright.mechanics.chain import Chain, ChainParams
-from mechwright.mechanics.mating.choice import Fits
-from mechwright.mechanics.mating.fitted import with_fits
 from mechwright.plugins.host import Host
 from mechwright.reading import once
 
@@ -122,6 +121,8 @@ class Design:
                     f"part {part.name!r} stands in the mechanism and around it, and both have its files; "
                     "leave out the table that adds the second"
                 )
+        from mechwright.mechanics.mating.fitted import with_fits
+
         parts = with_fits(parts, self.solve(2), self.tables.get(FitsTable.name, Fits()))
         for reader in self.readers:
             parts = reader.parts(self.tables[reader.name], parts, self.path)

@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.fit_settings import Fits, FitSettings, hole_name
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
 from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines, toml
 from mechwright.errors import DesignError
-from mechwright.mechanics.mating.choice import Fits, FitSettings, hole_name
 
 _OWN = (
     "",

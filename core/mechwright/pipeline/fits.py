@@ -7,7 +7,7 @@ from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
 
 
-class FitsSaid(Inspection):
+class DeclaredFits(Inspection):
     """Pairs of round faces, of which one belongs to a bought part that has no limits for it."""
 
     name = "fits"
@@ -22,7 +22,8 @@ class FitsSaid(Inspection):
 
 def _findings(build: Build) -> Iterator[Finding]:
     from mechwright.contracts.bodies import placed
-    from mechwright.mechanics.mating.choice import ROOM, Assembled
+    from mechwright.mechanics.mating.choice import Assembled
+    from mechwright.mechanics.mating.rounds import ROOM
 
     motion = build.design.solve(2)
     whole = Assembled(placed(build.parts, motion), motion)

@@ -15,7 +15,7 @@ class CompleteParams(FiveBarParams):
     Examples
     --------
     >>> CompleteParams().gear_thickness, CompleteParams(load_y=-1000).gear_thickness
-    (8.0, 10.5)
+    (8.0, 12.0)
     """
 
     def fitted(self) -> Mapping[str, Any]:

@@ -5,6 +5,7 @@ The scales of the coupler's slots: angles of crank and rocker from X in the pose
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from mechwright import Colour, Engraving, Instance, Part, Step, Turned
 from mechwright.contracts.holes import threaded
@@ -168,14 +169,18 @@ def _bushings(m: FiveBarTable) -> list[Part]:
     for plate, frames in bushings_of(m).items():
         instances = [Instance(frame, layout.heights[plate]) for frame in frames]
         by_length.setdefault(thickness_of(params, plate), []).extend(instances)
+    spare = ("bore",) if params.phases else ()  # those of other phases have no pin
     return [
-        bushing_part(
-            "bushing" if number == 0 else f"bushing-{number + 1}",
-            running_bore(params),
-            turning_bore(params),
-            length,
-            instances,
-            BUSHING_MATERIAL,
+        replace(
+            bushing_part(
+                "bushing" if number == 0 else f"bushing-{number + 1}",
+                running_bore(params),
+                turning_bore(params),
+                length,
+                instances,
+                BUSHING_MATERIAL,
+            ),
+            vacant=spare,
         )
         for number, (length, instances) in enumerate(by_length.items())
     ]

@@ -9,10 +9,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import DesignError, Output, Tolerances
+from mechwright.contracts.fit_settings import RUNNING
 from mechwright.mechanics.linkage.tolerance.contributors import Fixed, Play, Source
 from mechwright.mechanics.linkage.tolerance.model import MachineTolerances
 from mechwright.mechanics.linkage.tolerance.outputs import Judged, Point, Way
-from mechwright.mechanics.mating.choice import RUNNING
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.mechanics.planar.sensitivity import Change
 from mechwright_slider_crank.kinematics.course import course_of

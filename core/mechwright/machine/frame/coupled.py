@@ -162,7 +162,8 @@ def add_motor(kit: Kit, coupled: Coupled, body: str) -> None:
     """Motor and coupling; ``body`` of the motion turns with the input."""
     kit.places["motor"] = Place((*coupled.axis, 0.0), turned(coupled.angle))
     kit.places["motor-shaft"] = Place(on=body)
-    kit.bought("motor", drilled(coupled.motor), "motor", coupled.face)
+    short = max(PLATE - coupled.motor.face.pilot_height, 0.0)
+    kit.bought("motor", drilled(coupled.motor), "motor", coupled.face, play=short)
     # Each shaft goes into half of the coupling, that of the motor as far as it is long enough.
     inside = coupled.face + coupled.motor.face.shaft_length - coupled.coupling_low
     empty = max(coupled.coupling.of.length / 2 - inside, 0.0)

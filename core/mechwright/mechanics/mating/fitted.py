@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from mechwright.contracts.bodies import placed
+from mechwright.contracts.fit_settings import Fits
 from mechwright.contracts.fits import Fit, hole_fit
 from mechwright.contracts.holes import exchanged, hole
 from mechwright.contracts.joint import GROUND
@@ -11,7 +12,7 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, did_you_mean
-from mechwright.mechanics.mating.choice import Assembled, Fits, hole_fit_of, pin_fit
+from mechwright.mechanics.mating.choice import Assembled, hole_fit_of, pin_fit
 from mechwright.mechanics.mating.rounds import Round
 
 Chosen = dict[tuple[str, str], Fit]

@@ -35,6 +35,9 @@ TIGHT = 0.1
 """How much narrower a hole is drawn than its pin, mm, at most: a circlip in its groove is narrower, and no
 hole."""
 
+ROOM = 0.1
+"""A hole without a fit that is wider than its pin by this and more, mm, is room for it."""
+
 ALIKE = 0.3
 """How much wider a hole is than what it fits, mm, at most: more is room, as for a screw."""
 

@@ -175,8 +175,10 @@ def _bushings(layout: Layout) -> Iterator[Part]:
     for frame, plate, _, _ in bushed(layout):
         same = sizes.thickness_of(plate) == sizes.thickness
         (thin if same else thick).append(Instance(frame, layout.bottom(plate)))
+    spare = ("bore",) if layout.spares else ()
     if thin:
-        yield replace(bushing_part("bushing", bore, sizes.roller, sizes.thickness, thin), play=loose)
+        ring = bushing_part("bushing", bore, sizes.roller, sizes.thickness, thin)
+        yield replace(ring, play=loose, vacant=spare)
     if thick:
         ground = bushing_part("bushing-ground", bore, sizes.roller, sizes.ground_thickness, thick)
         yield replace(ground, play=loose)
