@@ -14,6 +14,7 @@ from mechwright.contracts.part import Instance, Part
 from mechwright.designs.design import Design
 from mechwright_cad.bodies import Body, bodies_of
 from mechwright_cad.interference import plates
+from mechwright_cad.interference.apart import apart
 from mechwright_cad.interference.path import Path, flat, plane_path, relative, space_path
 from mechwright_cad.interference.report import Collision, Gap, Instant, Report, settings_findings
 from mechwright_cad.interference.slabs import TOUCH, Slab, slabs_of
@@ -64,6 +65,8 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
             skipped |= {body.name for body in (one, two) if not body.is_plate} or {one.name, two.name}
             continue
         count += 1
+        if up is None and apart(one, two, rotation, position):
+            continue
         if up is None:
             hit = _in_space(one, two, space_path(rotation, position))
             if hit is not None:
