@@ -25,12 +25,14 @@ def place(path: str) -> str | None:
 
     >>> place("docs/python.md"), place("examples/elliptic-pair.toml"), place("pyproject.toml")
     ('python.md', 'gallery/elliptic-pair.md', None)
+    >>> place("examples/chains/figure-eight-chain.toml")
+    'gallery/figure-eight-chain.md'
     """
     if path.startswith("docs/"):
         return path.removeprefix("docs/")
     if path.startswith("examples/notebooks/"):
         return f"{NOTEBOOKS}/{posixpath.basename(path).replace('.ipynb', '.md')}"
-    if re.fullmatch(r"examples/(motion/)?[^/]+\.toml", path):
+    if re.fullmatch(r"examples/((motion|chains|linkages)/)?[^/]+\.toml", path):
         return f"{GALLERY}/{posixpath.basename(path).replace('.toml', '.md')}"
     if path == "examples/motion/README.md":
         return f"{GALLERY}/README.md"

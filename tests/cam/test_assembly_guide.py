@@ -168,7 +168,7 @@ def test_the_page_has_every_step_and_item_and_asks_nobody(crank_rocker):
     listed = {int(n) for n in re.findall(r'<td class="n">(\d+)</td><td class="n">', page)}
     assert {int(n) for n in re.findall(r'text-anchor="middle">(\d+)<', page)} == listed
     assert len(listed) == len(order) - 1, "two pins are alike"
-    assert "press fit, ⌀6 N7" in page
+    assert "push fit, ⌀6 N7 / 6 h6" in page
     assert page.index("bushing-ground") < page.index("The group of coupler")
 
 

@@ -22,6 +22,7 @@ class Adjusting:
         self.plan, self.stacks = plan, tuple(stacks)
         self._main = [step for step in plan.steps if step.root == plan.order.root]
         self._turned: set[str] = set()
+        self._measured: set[str] = set()
 
     def waits(self, match: Match) -> int | None:
         """The step at which the coupling's screw on a motor is tightened, where that is a later one."""
@@ -84,7 +85,8 @@ class Adjusting:
         for one in self.stacks:
             rings = "" if one.shimming is None else one.shimming.part
             parts = {each.part for each in one.lengths} - {"", rings}
-            if parts and parts <= now and not parts <= before:
+            if parts and parts <= now and not parts <= before and one.name not in self._measured:
+                self._measured.add(one.name)
                 yield _measured(one)
 
     def run_in(self, step: Step) -> Iterator[str]:
@@ -99,10 +101,10 @@ class Adjusting:
 def _measured(stack: AxialStack) -> str:
     """How the play of a stack is measured, and what is done about it."""
     low, high = stack.worst
-    how = f"Push and pull, and measure the {stack.name} with a dial gauge"
     shimming = stack.shimming
     if shimming is None:
-        return f"{how}: it is {low:.2f} to {high:.2f} mm."
+        return f"Check the {stack.name}: it is {low:.2f} to {high:.2f} mm."
+    how = f"Push and pull, and measure the {stack.name} with a dial gauge"
     rings = " + ".join(f"{ring:g}" for ring in shimming.rings(stack.middle))
     given = f", for {stack.middle:.2f} mm {rings}" if rings else ""
     return (

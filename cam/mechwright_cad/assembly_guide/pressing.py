@@ -12,6 +12,9 @@ from mechwright_cad.assembly_order.press import FREE, ROOM, support
 BENCH = "Press it in a vice or arbor press, with support right under the hole."
 """How a press fit is made where the room under the hole is free."""
 
+WHOLE = 1e-6
+"""Hundredths of a millimetre that rounding may take from a diameter."""
+
 
 def pressed(order: Order, step: Step, match: Match, name: Callable[[int], str]) -> str:
     """What a step says of a press: its support, and where the force acts."""
@@ -31,8 +34,14 @@ def pressed(order: Order, step: Step, match: Match, name: Callable[[int], str]) 
     if is_bearing(pin):
         return f"{words} Press on the outer ring only."
     if match.pin in step.moved and order.seats.is_bush(match.pin):
-        bores = [one.diameter for one in rounds_of(pin, order.sample) if one.inside]
+        inner = [one for one in rounds_of(pin, order.sample) if one.inside]
+        bores = [math.floor(100 * one.limits[0] + WHOLE) / 100 for one in inner]
         wide = math.ceil(match.inside.diameter + 2 * ROOM)
         mandrel = f"a mandrel of ⌀{min(bores):g} with a shoulder" if bores else "a stepped mandrel"
-        return f"{words} Use {mandrel}; a tube of at least ⌀{wide}, {FREE:g} mm long, lets it through."
+        reamed = ""
+        if pin.part.turned is not None and inner and inner[0].fit is not None:
+            reamed = f" The press narrows its bore: ream it to {inner[0].text} afterwards."
+        return (
+            f"{words} Use {mandrel}; a tube of at least ⌀{wide}, {FREE:g} mm long, lets it through.{reamed}"
+        )
     return words

@@ -123,7 +123,8 @@ class Design:
                 )
         from mechwright.mechanics.mating.fitted import with_fits
 
-        parts = with_fits(parts, self.solve(2), self.tables.get(FitsTable.name, Fits()))
+        if any(part.instances for part in parts):
+            parts = with_fits(parts, self.solve(2), self.tables.get(FitsTable.name, Fits()))
         for reader in self.readers:
             parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts

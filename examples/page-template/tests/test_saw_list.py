@@ -4,10 +4,26 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from mechwright_saw_list.page import STEM, SawList
 
-from mechwright import Build, Design, Family, Instance, Loop, Outline, Page, Parameters, Part, circle, host
+from mechwright import (
+    Build,
+    Channel,
+    Design,
+    Family,
+    Instance,
+    Loop,
+    Motion,
+    Outline,
+    Page,
+    Parameters,
+    Part,
+    Poses,
+    circle,
+    host,
+)
 
 
 class Sample(Family[Parameters]):
@@ -22,7 +38,8 @@ class Sample(Family[Parameters]):
         return []
 
     def solve(self, params, samples):
-        raise NotImplementedError
+        still = Poses(np.zeros((samples, 3)), np.tile(np.eye(3), (samples, 1, 1)))
+        return Motion("turn", {"turn": Channel(np.linspace(0.0, 1.0, samples), "rad")}, {"ring": still})
 
     def parts(self, params):
         import cadquery as cq

@@ -181,6 +181,6 @@ def _input(layout: Layout, over: float, seat: Opening | None) -> Turned:
 
 def _pin(diameter: float, seat: float, running: float) -> Turned:
     """Seat, then the thinner part that turns, then the head, from below."""
-    pressed = Step(diameter, seat, shaft_fit(diameter, "r6"))
+    pressed = Step(diameter, seat, shaft_fit(diameter, "h6"))  # it goes through the coupler's hole first
     head = Step(HEAD * diameter, HEAD_HEIGHT * diameter)
     return Turned((pressed, _running(diameter, running), head))
