@@ -8,6 +8,7 @@ drawn
     Of a bar: pulled to a class of limits, so that its outside needs no turning.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -98,6 +99,17 @@ def plate_for(wanted: float, name: str, in_hand: Sequence[float] = ()) -> float:
         if fitting:
             return fitting[0]
     raise DesignError(f"no plate of {name} is {wanted:g} mm thick; the thickest is {sold[-1]:g} mm")
+
+
+def plate_or_block(wanted: float, name: str) -> float:
+    """The same, mm; whole millimetres of a sawn block where no plate is so thick.
+
+    >>> plate_or_block(11, "aluminium"), plate_or_block(82.3, "aluminium")
+    (12.0, 83.0)
+    """
+    if wanted <= plate_stock(name).thicknesses[-1]:
+        return plate_for(wanted, name)
+    return float(math.ceil(wanted))
 
 
 def plate_within(most: float, name: str) -> float | None:

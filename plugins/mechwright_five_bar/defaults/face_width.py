@@ -3,7 +3,7 @@
 from mechwright import MechwrightError
 from mechwright.contracts.finding import errors
 from mechwright.mechanics.strength.allowed import REVERSING_ROOT
-from mechwright.standards.stock import plate_for, plate_stock, plate_within
+from mechwright.standards.stock import plate_or_block, plate_within
 from mechwright_five_bar.defaults.limits import USUAL_FACE
 from mechwright_five_bar.parameters import FiveBarParams
 from mechwright_five_bar.rules.motion import RUNS
@@ -41,8 +41,6 @@ def face_of(params: FiveBarParams) -> float:
     # A tooth's stress is to its width as one to it, and its load hardly changes with it.
     most = max(USUAL_FACE, plate_within(MOST_MODULES * module, params.material) or 0.0)
     wanted = min(SPARE * USUAL_FACE * used, most)
-    width = (
-        plate_for(wanted, params.material) if wanted <= plate_stock(params.material).thicknesses[-1] else most
-    )
+    width = plate_or_block(wanted, params.material)
     breaks = max(one.value / one.breaks for one in stresses if one.breaks is not None)
     return width if SPARE * USUAL_FACE * breaks <= width else USUAL_FACE

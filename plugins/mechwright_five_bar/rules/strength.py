@@ -20,7 +20,7 @@ from mechwright.mechanics.strength.bearings_life import SINTERED_PRESSURE
 from mechwright.mechanics.strength.judging import SLOWEST, Stress, StressRule, Way
 from mechwright.mechanics.strength.pressure import most_pressed, too_pressed
 from mechwright.mechanics.strength.tooth_bending import root_stress
-from mechwright.standards.stock import plate_for
+from mechwright.standards.stock import plate_or_block
 from mechwright_five_bar.kinematics.loads import JOINTS, loads_of
 from mechwright_five_bar.rules.gears import require_gears
 from mechwright_five_bar.table import FiveBarTable
@@ -54,7 +54,7 @@ def _stronger(m: FiveBarTable, over: float) -> tuple[Change, ...]:
         root = math.sqrt(over * share)
         found.append({
             "parameters.pin_diameter": math.ceil(2 * root * params.pin_diameter) / 2,
-            "parameters.thickness": plate_for(root * params.thickness, params.material),
+            "parameters.thickness": plate_or_block(root * params.thickness, params.material),
         })  # fmt: skip
         speed = params.speed / math.sqrt(over * share)
         if speed >= SLOWEST:
