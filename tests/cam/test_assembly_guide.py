@@ -138,7 +138,11 @@ def test_fits_say_whether_a_pin_is_pressed_pushed_or_runs():
     runs = play(shaft_fit(6, "f7"), hole_fit(6, "H7"))
     assert runs.play == pytest.approx((0.010, 0.034))
     assert runs.text == "⌀6 H7 / 6 f7"
-    assert (play(None, None).unsaid, play(None, hole_fit(6, "H7")).unsaid, runs.unsaid) == (2, 1, 0)
+    assert (play(None, None).missing_fits, play(None, hole_fit(6, "H7")).missing_fits, runs.missing_fits) == (
+        2,
+        1,
+        0,
+    )
     apart = standing(turned("pin", Turned((Length(6.0, 2.0),))), turned("bush", tube(6, 12, 5), 2.0, "b"))
     assert matches(apart, 0, (0,), (1,)) == [], "it ends where the bush begins"
     room = standing(turned("pin", Turned((Length(5.0, 9.0),))), turned("bush", tube(6, 12, 5), 2.0, "b"))

@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 import shapely
 from hypothesis import given, settings
@@ -13,19 +14,25 @@ from hypothesis import strategies as st
 
 import mechwright as mw
 from mechwright.contracts.bodies import placed
+from mechwright.contracts.fit_settings import Fits
 from mechwright.contracts.fits import between, hole_fit, running_hole, shaft_fit
 from mechwright.contracts.holes import exchanged, hole
+from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.limits import limits
+from mechwright.contracts.motion import Channel, Motion, Poses
 from mechwright.contracts.named import Named
-from mechwright.contracts.part import Bore, Part, Profile
+from mechwright.contracts.part import Bore, Instance, Part, Profile
+from mechwright.contracts.turned import Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.geometry.keyway import Opening
 from mechwright.mechanics.mating.choice import Assembled
+from mechwright.mechanics.mating.fitted import with_fits
 from mechwright.pipeline import Build, Wanted
-from mechwright.pipeline.fits import DeclaredFits
+from mechwright.pipeline.fits import DeclaredFits, fit_findings
 from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
+from mechwright.standards.bushes import bush_for
 
 ROOT = Path(__file__).parents[2]
 PRINTED = tomllib.loads((ROOT / "tests/data/fits.toml").read_text())
@@ -86,7 +93,7 @@ def test_every_pair_of_an_example_has_limits_that_fit_what_it_does(name):
     whole = Assembled(placed(design.parts, motion), motion)
     for match in whole.matches:
         pair = f"{whole.bodies[match.pin].part.name} in {whole.bodies[match.hole].part.name}: {match.text}"
-        assert not match.unsaid, pair
+        assert not match.missing_fits, pair
         bought = any(whole.bodies[k].part.bought is not None for k in (match.pin, match.hole))
         if not whole.same_group(match) and not bought:
             assert match.play[0] > 0, f"{pair} turns, and may jam"
@@ -176,7 +183,53 @@ def test_a_bought_part_without_limits_is_an_error_of_its_author():
         silent = replace(known["coupling"], bought=coupling)
         build._kept["parts"] = Named(silent if part.name == "coupling" else part for part in known)
         found = DeclaredFits().findings(build)
-    assert [one.code for one in found] == ["fit.missing"] * 2
+    assert {one.code for one in found} == {"fit.missing"}
     assert found[0].message == (
         "shaft goes into coupling, ⌀6 / 6 h6, and coupling says no limits of its size"
     )
+
+
+def elliptic(**fits):
+    return mw.load(ROOT / "examples/elliptic-pair-machine.toml").with_(fits=fits)
+
+
+def test_a_pair_that_is_named_gets_its_class_whatever_its_part_says():
+    plate = elliptic().parts["lower-plate"]
+    assert hole(plate, "bearing-2").fit.short == "26 H7"
+    named = elliptic(of={"bearing-6000 in lower-plate": "J7"}).parts["lower-plate"]
+    assert hole(named, "bearing-2").fit.short == "26 J7"
+    assert hole(named, "bearing-2").diameter == pytest.approx(26 + (-0.009 + 0.012) / 2)
+    assert hole(named, "column-1").fit.short == "8 H7", "the others stay"
+
+
+def test_the_hole_of_a_bought_part_is_its_makers():
+    with pytest.raises(DesignError, match=r"the hole of bearing-6000 is its maker's; leave the pair out"):
+        _ = elliptic(of={"shaft-2 in bearing-6000": "J7"}).parts
+
+
+@pytest.mark.parametrize(("running", "severity"), [("N7", "error"), ("J7", "warning"), ("H7", None)])
+def test_a_pin_that_turns_and_may_jam_is_told(running, severity):
+    design = mw.load(ROOT / "examples/four-bar-machine.toml").with_(fits={"running": running})
+    motion = design.design.solve(2)
+    found = list(fit_findings(Assembled(placed(design.parts, motion), motion)))
+    assert {(one.code, one.severity) for one in found} == ({("fit.jams", severity)} if severity else set())
+    for one in found:
+        (change,) = one.proposed
+        assert mw.load(ROOT / "examples/four-bar-machine.toml").design.changed(change).parts()
+
+
+def test_a_pin_that_runs_in_a_bought_bush_is_not_called_pressed_in_its_plate():
+    bush = Part("bush", None, 0.0, "steel", (Instance("b"),), bought=bush_for(6, 6).bought)
+    pin = Part("pin", None, 0.0, "steel", (Instance("a"),), turned=Turned((Step(6.0, 14.0),)))
+    disc = Outline(Loop((circle((0.0, 0.0), 20.0),)), (Loop((circle((0.0, 0.0), 3.0, clockwise=True),)),))
+    plate = Part("plate", disc, 6.0, "steel", (Instance("a", 8.0),))
+    still = Poses(np.zeros((2, 3)), np.tile(np.eye(3), (2, 1, 1)))
+    turning = Channel(np.linspace(0.0, 1.0, 2), "rad")
+    joints = {"a": Joint("revolute", GROUND, "a", (5.0, 0.0, 0.0))}
+    motion = Motion("t", {"t": turning}, {"a": still, "b": still}, joints=joints)
+    made = {part.name: part for part in with_fits([bush, pin, plate], motion, Fits())}
+    assert made["pin"].turned.steps[0].fit.short == "6 f7"
+    assert hole(made["plate"], "bore-1").fit.short == "6 H7", "P7 on f7 would hold nothing"
+    alone = {part.name: part for part in with_fits([pin, plate], motion, Fits())}
+    assert alone["pin"].turned.steps[0].fit.short == "6 h6"
+    assert hole(alone["plate"], "bore-1").fit.short == "6 P7"

@@ -93,8 +93,8 @@ class Adjusting:
         """What is done when all is together."""
         if step is self.plan.steps[-1] and any(joint.drives for joint in self.plan.motion.joints.values()):
             yield (
-                "Run in: turn the input by hand through one whole cycle, then run without load at low speed. "
-                "Oil bushes, grease teeth and slides, and check every torque once more."
+                "Run in: grease teeth and slides, turn the input by hand through one whole cycle, then run "
+                "without load at low speed."
             )
 
 

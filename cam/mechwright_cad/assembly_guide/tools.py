@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from mechwright.contracts.part import Part
 from mechwright.mechanics.strength.tightening import torque_text
+from mechwright.standards import bearings, bushes, circlips, dowels
 from mechwright.standards.hexagon_keys import BIT_LENGTH
 from mechwright_cad.assembly_order.reach import Tool
 from mechwright_cad.bodies import is_coupling
@@ -70,14 +71,13 @@ def fitted(part: Part) -> str:
     if is_coupling(part):
         return "Tighten its screw on this shaft; that on the other shaft comes once both stand."
     standard = part.bought.standard if part.bought is not None else ""
-    match standard:
-        case "DIN 471" | "DIN 472":
-            kind = "outer" if standard == "DIN 471" else "inner"
-            return f"Tool: pliers for {kind} circlips. Turn the ring in its groove to see that it sits."
-        case "ISO 2795":
-            return "Never ream it, which closes its pores. Let it soak in oil before the shaft comes."
-        case "ISO 15":
-            return "Never press through the balls."
-        case "ISO 8734" | "ISO 2338":
-            return "Tool: soft hammer, drift a little thinner than the dowel."
+    if standard in circlips.STANDARDS:
+        kind = "outer" if standard == circlips.ON_SHAFTS else "inner"
+        return f"Tool: pliers for {kind} circlips. Turn the ring in its groove to see that it sits."
+    if standard == bushes.STANDARD:
+        return "Never ream it, which closes its pores. Let it soak in oil before the shaft comes."
+    if standard == bearings.STANDARD:
+        return "Never press through the balls."
+    if standard in dowels.STANDARDS:
+        return "Tool: soft hammer, drift a little thinner than the dowel."
     return ""

@@ -6,13 +6,14 @@ import numpy as np
 
 from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.bodies import rigid
+from mechwright.contracts.fitting_marks import FittingMark
+from mechwright.contracts.marking import FITTING_MARKS
 from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
 from mechwright_cad.assembly_guide.adjusting import Adjusting
 from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.handling import Handling, whence
 from mechwright_cad.assembly_guide.pressing import BENCH, pressed
 from mechwright_cad.assembly_guide.tools import fitted, screwed
-from mechwright_cad.assembly_order.fastenings import needs_compound
 from mechwright_cad.assembly_order.groups import is_bearing
 from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
@@ -21,6 +22,9 @@ from mechwright_cad.bodies import is_coupling
 
 NEXT = 0.6
 """How much further than the nearest lies what also counts as met, mm: more than the gap between links."""
+
+ALIKE = 0.1
+"""Threads whose depths differ by less, mm, are alike."""
 
 _TRIED = {
     "prismatic": "slides freely on",
@@ -80,6 +84,7 @@ class Words:
         said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
         said += dict.fromkeys(self._fits(match, step) for match in found if self._fast(match))
         new = [k for k in step.moved if self._first[k] is step]
+        said += dict.fromkeys(sentence for k in new for sentence in self._ends(k))
         said += dict.fromkeys(filter(None, (self._screwed(k, self._columns.later(k), step) for k in new)))
         if not any(self._columns.later(k) for k in new):
             said += self._adjusting.crosswise(step)
@@ -89,16 +94,36 @@ class Words:
             said.append(f"{BENCH} Use a mandrel as thick as the shaft, with a shoulder.")
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
         said += dict.fromkeys(
-            mark.note
+            sentence
             for k in (*step.onto, *step.moved)
             if self._last.get(k) is step
             for mark in plan.bodies[k].part.marks
+            for sentence in self._mark(k, mark)
         )
         said += dict.fromkeys(self._tries(step, found))
         said += self._adjusting.shafts(step, self.name)
         said += self._adjusting.measured(step)
         said += self._adjusting.run_in(step)
         return said
+
+    def _ends(self, k: int) -> Iterator[str]:
+        """Which end of a pillar is up where its threads are not alike, as a screw would meet a bottom."""
+        body = self.plan.bodies[k]
+        depths = {one.end: one.depth for one in body.part.turned.threads} if body.part.turned else {}
+        if len(depths) < 2 or abs(depths["upper"] - depths["lower"]) < ALIKE:
+            return
+        up, down = depths["upper"], depths["lower"]
+        if body.poses.rotation[self.plan.sample][2, 2] < 0:
+            up, down = down, up
+        yield f"The thread {up:g} mm deep of {self.name(k)} goes up, that of {down:g} mm down."
+
+    def _mark(self, k: int, mark: FittingMark) -> Iterator[str]:
+        """What a mark tells, and where its dots are punched in a part that has none engraved."""
+        yield mark.note
+        part = self.plan.bodies[k].part
+        if mark.dots and not any(one.name == FITTING_MARKS for one in part.details):
+            places = " and ".join(f"x {x:.1f}, y {y:.1f}" for x, y in mark.dots)
+            yield f"{part.name} has no dots yet: centre-punch its top face at {places} mm from its axis."
 
     def _by_hand(self, step: Step) -> Iterator[str]:
         both = self._handling.in_turn(step)
@@ -206,7 +231,7 @@ class Words:
             return f"{pin} screws into {hole}."
         if is_coupling(self.plan.bodies[match.hole].part):
             return f"{pin} goes into {hole}: tighten its screw there."
-        if match.unsaid:
+        if match.missing_fits:
             return f"{pin} goes through {hole} with room, {match.text}: it is no seat."
         if most <= 0:
             tight = f"{0.0 - most:.3f} to {-least:.3f} mm tight"
@@ -219,7 +244,7 @@ class Words:
 
     def _held(self, match: Match) -> str:
         """What keeps a pin from turning in a hole that it slides in."""
-        if not needs_compound(*(self.plan.bodies[k].part for k in (match.pin, match.hole))):
+        if self.plan.order.seats.kind(match) != "bonded":
             return ""
         return " Nothing else holds it: bond it with retaining compound."
 
@@ -232,7 +257,9 @@ class Words:
                     continue
                 self._said.add(pair)
                 least, most = match.play
-                loose = "" if match.unsaid else f" with {least:.3f} to {most:.3f} mm of play, {match.text}"
+                loose = (
+                    "" if match.missing_fits else f" with {least:.3f} to {most:.3f} mm of play, {match.text}"
+                )
                 yield (
                     f"Grease. Try: {self.name(match.pin)} and {self.name(match.hole)} turn freely on each "
                     f"other by hand{loose}."

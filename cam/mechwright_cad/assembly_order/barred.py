@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
-from mechwright.standards.circlips import bore_circlips, shaft_circlips
+from mechwright.standards.circlips import IN_BORES, ON_SHAFTS, bore_circlips, shaft_circlips
 from mechwright_cad.assembly_order.heights import Heights
 from mechwright_cad.assembly_order.layers import LEVEL, ROUND, Layer, frame_of, layers_of, mesh_points
 from mechwright_cad.bodies import Body
@@ -17,7 +17,7 @@ from mechwright_cad.bodies import Body
 SKIN = 0.03
 """What passes, mm: a fit without clearance, and the chords of both."""
 
-SPRUNG = {"DIN 471": shaft_circlips, "DIN 472": bore_circlips}
+SPRUNG = {ON_SHAFTS: shaft_circlips, IN_BORES: bore_circlips}
 """Standards of rings that are spread or squeezed on their way."""
 
 
@@ -120,5 +120,5 @@ def _sprung(body: Body, shape: shapely.Geometry) -> shapely.Geometry:
         return shape
     size = float(bought.designation.split(" - ")[1].split(" x ")[0])
     disc = shapely.centroid(shape).buffer(size / 2, quad_segs=ROUND)
-    outside = bought.standard == "DIN 471"
+    outside = bought.standard == ON_SHAFTS
     return shapely.difference(shape, disc) if outside else shapely.intersection(shape, disc)

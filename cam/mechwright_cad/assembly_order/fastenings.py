@@ -14,11 +14,10 @@ from mechwright.contracts.bodies import rigid
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, ROOM, Match, matches, rounds_of
+from mechwright.standards import bushes, circlips, keys
 from mechwright_cad.assembly_order.groups import BodyLayers, is_bearing
 from mechwright_cad.bodies import Body, is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint
-
-RINGS, KEYS, BUSHES = frozenset({"DIN 471", "DIN 472"}), "DIN 6885-1", "ISO 2795"
 
 Kind = Literal["screwed", "pressed", "bonded", "keyed", "ring", "clamped"]
 
@@ -60,7 +59,7 @@ class Seats:
     def is_bush(self, number: int) -> bool:
         """Whether a body is a bush: bought as one, or turned with a bore."""
         part = self.bodies[number].part
-        bought = part.bought is not None and part.bought.standard == BUSHES
+        bought = part.bought is not None and part.bought.standard == bushes.STANDARD
         return bought or (part.turned is not None and part.turned.bore > 0)
 
     def is_fast(self, match: Match) -> bool:
@@ -78,15 +77,24 @@ class Seats:
             return "clamped"
         if not self.is_fast(match):
             return None
-        if match.unsaid:
+        if match.missing_fits:
             return "bonded" if least <= ROOM else None
         if least < 0:
             return "pressed"
-        return "bonded" if needs_compound(*(self.bodies[k].part for k in (match.pin, match.hole))) else None
+        return (
+            "bonded"
+            if _needs_compound(match, *(self.bodies[k].part for k in (match.pin, match.hole)))
+            else None
+        )
 
 
-def needs_compound(pin: Part, hole: Part) -> bool:
-    """Whether nothing but retaining compound holds a pin in a hole that it slides in."""
+def _needs_compound(match: Match, pin: Part, hole: Part) -> bool:
+    """Whether nothing but retaining compound holds a pin in a hole that it slides in.
+
+    A pin that goes into one of several holes by turns is not bonded.
+    """
+    if match.inside.face in hole.vacant:
+        return False
     ring = any(part.turned is not None and part.turned.bore for part in (pin, hole))
     keyed = pin.turned is not None and pin.turned.seats
     screwed_down = pin.turned is not None and pin.turned.threads
@@ -115,14 +123,14 @@ def _others(seats: Seats, known: set[tuple[int, int]]) -> Iterator[Fastening]:
         shaft = any(part.turned is not None for part in parts)
         if seats.head(one) != seats.head(two):
             continue
-        if standards & RINGS and shaft:
+        if standards & circlips.STANDARDS and shaft:
             yield Fastening("ring", pair, pair)
-        elif KEYS in standards and shaft:
+        elif keys.STANDARD in standards and shaft:
             yield Fastening("keyed", pair, pair)
         elif (one, two) not in known and any(part.kind == "solid" for part in parts):
             pin = any(
                 (part.turned is not None and not part.turned.threads and not part.turned.bore)
-                or (part.bought is not None and part.bought.standard == BUSHES)
+                or (part.bought is not None and part.bought.standard == bushes.STANDARD)
                 for part in parts
             )
             if pin:

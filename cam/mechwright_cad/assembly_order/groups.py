@@ -12,6 +12,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.bodies import rigid
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
+from mechwright.standards import bearings
 from mechwright_cad.assembly_order.layers import UP, Layer, layers_of, mesh_points
 from mechwright_cad.bodies import Body
 from mechwright_cad.interference.surface import Surface
@@ -137,4 +138,4 @@ def bonds(bodies: Sequence[Body], motion: Motion, standing: BodyLayers) -> list[
 
 def is_bearing(body: Body) -> bool:
     """Whether it is a ball bearing: its inner ring sits tight on a shaft."""
-    return body.part.bought is not None and body.part.bought.standard == "ISO 15"
+    return body.part.bought is not None and body.part.bought.standard == bearings.STANDARD

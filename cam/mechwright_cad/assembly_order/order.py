@@ -20,6 +20,7 @@ from mechwright.contracts.bodies import rigid
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.mechanics.mating.rounds import PARALLEL
+from mechwright.standards import circlips
 from mechwright_cad.assembly_order.barred import Ways
 from mechwright_cad.assembly_order.blocking import Blocking
 from mechwright_cad.assembly_order.fastenings import Seats, fastenings
@@ -35,7 +36,7 @@ from mechwright_cad.contacts.screw_joints import ScrewJoint, joints_of
 CLAMPS = frozenset({"ISO 4762", "ISO 10642"})
 """Standards of screws with a head: what one touches leaves after it, or with it."""
 
-HOLDERS = CLAMPS | {"ISO 4026", "ISO 7089", "DIN 471", "DIN 472"}
+HOLDERS = CLAMPS | {"ISO 4026", "ISO 7089"} | circlips.STANDARDS
 """Standards of what holds others: it comes off before them if it can, and is put on right after."""
 
 SHARE = 0.1

@@ -14,6 +14,7 @@ from manifold3d import CrossSection, Manifold
 
 from mechwright.arrays import Array
 from mechwright.errors import DesignError
+from mechwright.standards import circlips
 from mechwright.standards.hexagon_keys import (
     BIT_LENGTH,
     PLIERS,
@@ -23,7 +24,6 @@ from mechwright.standards.hexagon_keys import (
     bit_diameter,
     hexagon_key,
 )
-from mechwright_cad.assembly_order.fastenings import RINGS
 from mechwright_cad.assembly_order.groups import BodyLayers
 from mechwright_cad.assembly_order.layers import frame_of
 from mechwright_cad.bodies import Body, is_coupling
@@ -67,7 +67,7 @@ class Reach:
         """Whether a body is a screw, a circlip or a coupling."""
         part = self.bodies[number].part
         standard = part.bought.standard if part.bought is not None else ""
-        return screw_of(part) is not None or standard in RINGS or is_coupling(part)
+        return screw_of(part) is not None or standard in circlips.STANDARDS or is_coupling(part)
 
     def accesses(self, number: int, way: Array) -> list[Access]:
         """All accesses to a body that comes along a way, up to the first that nothing ever blocks."""
@@ -157,7 +157,7 @@ class Reach:
         out = -way if abs(way @ axis) > ALONG else axis
         start = foot + (thick if out @ axis > 0 else 0.0) * axis
         wide, long = PLIERS
-        side = 1.0 if bought.standard == "DIN 471" else -1.0
+        side = 1.0 if bought.standard == circlips.ON_SHAFTS else -1.0
         far = max(size / 2 + side * wide / 2, 0.0)
         frame = frame_of(out)
         for turn in 2 * np.pi * np.arange(AZIMUTHS) / AZIMUTHS:

@@ -21,7 +21,7 @@ def locked(order: Order) -> Iterator[Match]:
 
 def bonded(order: Order) -> Iterator[Match]:
     """Seats that retaining compound holds for good."""
-    return (one for one in order.seats.matches if not one.unsaid and order.seats.kind(one) == "bonded")
+    return (one for one in order.seats.matches if not one.missing_fits and order.seats.kind(one) == "bonded")
 
 
 def _is_blind(order: Order, match: Match) -> bool:

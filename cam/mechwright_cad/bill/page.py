@@ -56,7 +56,9 @@ class BillOfMaterials(Page):
         plan, order = build.made(plan_of), order_of(build)
         masses = build.made_as_wanted(Solids).masses()
         seats = plan.order.seats
-        bonded = any(seats.kind(match) == "bonded" for match in seats.matches)
+        bonded = [
+            plan.bodies[match.pin].part.name for match in seats.matches if seats.kind(match) == "bonded"
+        ]
         supplies = supplies_of(
             plan.bodies, plan.joints, numbers_of(build.parts, order), bonded=bonded, sample=plan.sample
         )

@@ -17,19 +17,15 @@ from mechwright.contracts.bought import Bought
 from mechwright.contracts.part import Bore, Part
 from mechwright.errors import DesignError
 from mechwright.mechanics.mating.rounds import NEAR, rounds_of
+from mechwright.standards import bushes, circlips, shims
 from mechwright.standards.dowels import dowel_for
 from mechwright.standards.ordering import order_of
 from mechwright.standards.screws import needs_washer, washer
 from mechwright.standards.supply import Supply
 from mechwright_cad.bodies import Body
-from mechwright_cad.contacts.screw_joints import ScrewJoint, screw_of
+from mechwright_cad.contacts.screw_joints import ScrewJoint
 
 GREASE = "grease for plain bearings"
-
-DOWELS = frozenset({"ISO 8734", "ISO 2338"})
-BUSHES = "ISO 2795"
-RINGS = frozenset({"DIN 471", "DIN 472"})
-SHIMS = "DIN 988"
 
 
 def supplies_of(
@@ -37,7 +33,7 @@ def supplies_of(
     joints: Collection[ScrewJoint],
     numbers: Mapping[str, int],
     *,
-    bonded: bool = False,
+    bonded: Sequence[str] = (),
     sample: int = 0,
 ) -> list[Supply]:
     """Loose dowels and washers, then compounds, grease, oil and spare parts, as far as something needs them.
@@ -51,16 +47,16 @@ def supplies_of(
     numbers
         Name of a part to the number of its item.
     bonded
-        Whether a pin or shaft of the assembly is bonded into its hole.
+        Names of the parts that retaining compound holds in their holes.
     sample
         Of the poses of the bodies at which dowels are looked for.
     """
     parts = {body.part.name: body.part for body in bodies}
-    dowels = list(_loose_dowels(bodies, numbers, sample))
+    loose = list(_loose_dowels(bodies, numbers, sample))
     return [
-        *dowels,
+        *loose,
         *_washers(bodies, joints, numbers),
-        *_compounds(parts, numbers, bonded=bonded or bool(dowels)),
+        *_compounds([bodies[one.screw].part.name for one in joints if one.is_locked], bonded, loose, numbers),
         *_grease(parts.values()),
         *_oil(parts, joints, numbers),
         *_spares(parts, numbers),
@@ -137,17 +133,19 @@ def _washers(
         yield _sold("washer", ring.bought, note, len(screws))
 
 
-def _compounds(parts: Mapping[str, Part], numbers: Mapping[str, int], *, bonded: bool) -> Iterator[Supply]:
-    screws = [name for name, part in parts.items() if screw_of(part) is not None]
-    if screws:
-        note = f"a drop on the thread of {_items(numbers, screws)}; not on threads in plastics"
+def _compounds(
+    locked: Sequence[str], bonded: Sequence[str], loose: Collection[Supply], numbers: Mapping[str, int]
+) -> Iterator[Supply]:
+    if locked:
+        note = f"a drop on the thread of {_items(numbers, locked)}; not on threads in plastics"
         yield Supply("thread locker", "thread locker, medium strength, 10 ml", note, 1, "bottle")
-    fast = [name for name, part in parts.items() if _standard(part) in DOWELS | {BUSHES}]
-    if bonded or fast:
-        where = f"{_items(numbers, fast)}: " if fast else ""
-        note = f"{where}in the holes of pins and bushes that are not tight, and under hubs without a key"
-        yield Supply("retaining compound", "retaining compound, high strength, 10 ml", note, 1, "bottle")
-    if screws or bonded or fast:
+    if bonded or loose:
+        own = [_items(numbers, bonded)] if bonded else []
+        note = " and ".join([*own, *(["the dowels that are not drawn"] if loose else [])])
+        yield Supply(
+            "retaining compound", "retaining compound, high strength, 10 ml", f"holds {note}", 1, "bottle"
+        )
+    if locked or bonded or loose:
         yield Supply(
             "cleaner",
             "isopropanol or brake cleaner, lint-free cloth",
@@ -166,22 +164,23 @@ def _grease(parts: Collection[Part]) -> Iterator[Supply]:
 def _oil(
     parts: Mapping[str, Part], joints: Collection[ScrewJoint], numbers: Mapping[str, int]
 ) -> Iterator[Supply]:
-    bushes = [name for name, part in parts.items() if _standard(part) == BUSHES]
-    if bushes or any(joint.tightening is not None for joint in joints):
-        of = f", and for {_items(numbers, bushes)}" if bushes else ""
+    pressed = [name for name, part in parts.items() if _standard(part) == bushes.STANDARD]
+    if pressed or any(joint.tightening is not None for joint in joints):
+        of = f", and for {_items(numbers, pressed)}" if pressed else ""
         note = f"under the heads of screws, whose torques are for oiled ones{of}"
         yield Supply("oil", "machine oil ISO VG 100", note, 1, "as needed")
 
 
 def _spares(parts: Mapping[str, Part], numbers: Mapping[str, int]) -> Iterator[Supply]:
     for name, part in parts.items():
-        if part.bought is not None and _standard(part) in RINGS:
+        if part.bought is not None and _standard(part) in circlips.STANDARDS:
             note = f"spare for item {numbers[name]}: a ring that was opened too far is scrap"
             yield _sold("spare ring", part.bought, note)
-    shims = [name for name, part in parts.items() if _standard(part) == SHIMS]
-    if shims:
-        note = f"the play that is measured is filled in place of {_items(numbers, shims)}"
-        yield Supply("shims", "shim rings DIN 988, 0.1 0.15 0.2 0.3 0.5 1 mm, of each size", note, 1, "set")
+    rings = [name for name, part in parts.items() if _standard(part) == shims.STANDARD]
+    if rings:
+        note = f"the play that is measured is filled in place of {_items(numbers, rings)}"
+        sizes = " ".join(f"{one:g}" for one in shims.THICKNESSES)
+        yield Supply("shims", f"shim rings {shims.STANDARD}, {sizes} mm, of each size", note, 1, "set")
 
 
 def _standard(part: Part) -> str:

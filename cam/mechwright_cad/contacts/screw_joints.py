@@ -132,6 +132,12 @@ class ScrewJoint:
         return tightening((of.size, of.pitch, what.head, hole), what.grade, strips, flat, self.hole.torque)
 
     @property
+    def is_locked(self) -> bool:
+        """Whether thread locker secures it: a set screw, and one that no preload holds, as in rubber."""
+        found = self.tightening
+        return not self.what.head or (found is not None and found.limit == "holder")
+
+    @property
     def weakest(self) -> int | None:
         """The body that limits the torque; None where the screw does."""
         found = self.tightening

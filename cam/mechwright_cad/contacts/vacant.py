@@ -8,12 +8,13 @@ from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.mechanics.linkage.fields import LOOSEST
 from mechwright.mechanics.mating.rounds import ALIKE, CONTACT, NEAR, PARALLEL, Round
+from mechwright.standards import bearings, bushes, circlips
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.bodies import is_coupling, is_motor
 from mechwright_cad.contacts.screw_joints import Hole, ScrewJoint, holes_of
 from mechwright_cad.contacts.touching import Gap, Touching
 
-SEATED = frozenset({"ISO 15", "ISO 2795"})
+SEATED = frozenset({bearings.STANDARD, bushes.STANDARD})
 """Standards of what sits on a shaft: ball bearings, bushes."""
 
 
@@ -62,7 +63,7 @@ def _grooves(touching: Touching) -> Iterator[Gap]:
     rings = [
         (m, body)
         for m, body in enumerate(touching.bodies)
-        if body.part.bought is not None and body.part.bought.standard == "DIN 471"
+        if body.part.bought is not None and body.part.bought.standard == circlips.ON_SHAFTS
     ]
     for body in touching.bodies:
         for groove in body.part.turned.grooves if body.part.turned is not None else ():

@@ -71,6 +71,10 @@ def marked(part: Part, text: str, height: float = 4.0, depth: float = 0.2, line:
     )
 
 
+FITTING_MARKS = "fitting-marks"
+"""Name of the engraving that is all dots of a part."""
+
+
 def engraved_dots(part: Part, depth: float = 0.2, line: float = 0.6) -> Part:
     """The plate with the dots of its fitting marks, ``depth`` mm deep in lines at most ``line`` mm wide.
 
@@ -83,7 +87,7 @@ def engraved_dots(part: Part, depth: float = 0.2, line: float = 0.6) -> Part:
         raise GeometryError(
             f"dots {depth:g} mm deep go through part {part.name}, {part.thickness:g} mm thick"
         )
-    return replace(part, details=(*part.details, Engraving("fitting-marks", strokes, depth, line)))
+    return replace(part, details=(*part.details, Engraving(FITTING_MARKS, strokes, depth, line)))
 
 
 def _instead(free: "shapely.Geometry", text: str, height: float) -> str:

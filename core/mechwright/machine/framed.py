@@ -95,5 +95,5 @@ def _refused(code: str, error: DesignError) -> Surroundings:
     key, _, rest = str(error).partition(": ")
     found = refusal(code, key, rest)
     if isinstance(error, MountingError):
-        found = replace(found, proposed=error.proposed)
+        found = replace(found, proposed=(*error.proposed, {"machine.frame": "none"}))
     return Surroundings(findings=(found,))

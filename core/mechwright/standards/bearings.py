@@ -9,6 +9,9 @@ from mechwright.contracts.shape import Shape, ring
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
 
+STANDARD = "ISO 15"
+"""Of the sizes of ball bearings."""
+
 _BORES = ((18.0, 0.008), (30.0, 0.010))
 _WIDTHS = ((50.0, 0.12), (120.0, 0.15))
 _OUTSIDES = ((18.0, 0.008), (30.0, 0.009), (50.0, 0.011), (80.0, 0.013))
@@ -80,7 +83,7 @@ class Bearing:
             between(self.bore, -_below(self.bore, _BORES), 0.0),
             between(self.outside, -_below(self.outside, _OUTSIDES), 0.0),
         )
-        return Bought(f"{self.name}-2Z", "ISO 15", self.mass, Shape((envelope,)), fits=fits)
+        return Bought(f"{self.name}-2Z", STANDARD, self.mass, Shape((envelope,)), fits=fits)
 
 
 def bearings() -> tuple[Bearing, ...]:

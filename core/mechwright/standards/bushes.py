@@ -9,6 +9,9 @@ from mechwright.contracts.shape import Shape, ring
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
 
+STANDARD = "ISO 2795"
+"""Of sintered bushes."""
+
 SINTERED = 6.6e-3
 """Density of sintered bronze with its oil, g/mm³; handbook, unchecked."""
 
@@ -36,7 +39,7 @@ class Bush:
         volume = math.pi / 4 * (self.outside**2 - self.bore**2) * self.length
         return Bought(
             f"ISO 2795 - J {self.bore:g} x {self.outside:g} x {self.length:g} - sintered bronze",
-            "ISO 2795",
+            STANDARD,
             round(SINTERED * volume, 3),
             Shape((ring(self.bore, self.outside, self.length),)),
             "housing H7; bore H7 when pressed in",

@@ -19,6 +19,10 @@ from mechwright.standards.table import table
 YIELD = 200.0
 """Yield strength for which DIN 471 and 472 print the loads of grooves, MPa."""
 
+ON_SHAFTS, IN_BORES = "DIN 471", "DIN 472"
+STANDARDS = frozenset({ON_SHAFTS, IN_BORES})
+"""Of circlips: on shafts, in bores, all."""
+
 _THINNER = ((0.8, 0.05), (1.75, 0.06), (3.0, 0.07))
 """Thicknesses up to and including, and by how much a ring may be thinner, mm; handbook."""
 
@@ -102,7 +106,7 @@ class Circlip:
     @property
     def bought(self) -> Bought:
         """How it is ordered; a whole ring as far as the lugs sweep, from z = 0 to its thickness."""
-        number = "DIN 472" if self.inside else "DIN 471"
+        number = IN_BORES if self.inside else ON_SHAFTS
         low, high = sorted((self.groove, self.room))
         envelope = Shape((ring(low, high, self.thickness),))
         return Bought(f"{number} - {self.size:g} x {self.thickness:g}", number, self.mass, envelope)

@@ -1,7 +1,7 @@
 """Parallel pins (dowels) of class m6: ISO 2338, unhardened, and ISO 8734, hardened."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.fits import shaft_fit
@@ -10,6 +10,8 @@ from mechwright.errors import DesignError
 from mechwright.standards.table import table
 
 DowelStandard = Literal["ISO 2338", "ISO 8734"]
+STANDARDS = frozenset(get_args(DowelStandard))
+"""Of dowels: soft ones and hard ones."""
 
 LENGTHS = (
     3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 32, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80, 85,

@@ -17,6 +17,9 @@ from mechwright.contracts.bought import Bought
 from mechwright.contracts.shape import Prism, Shape, slot
 from mechwright.geometry.keyway import KeySize, key_of_width
 
+STANDARD = "DIN 6885-1"
+"""Of parallel keys."""
+
 LENGTHS = (
     6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110, 125, 140, 160,
     180, 200,
@@ -95,8 +98,8 @@ class Key:
         words = f"DIN 6885 - {self.form} {self.size.width:g} x {self.size.height:g} x {self.length:g}"
         if self.form == "A":
             shape = Shape((slot((low, high), self.size.width, (0.0, self.length)),))
-            return Bought(words, "DIN 6885-1", None, shape)
-        return Bought(words, "DIN 6885-1", None, Shape((Prism(section, 0.0, self.length),)))
+            return Bought(words, STANDARD, None, shape)
+        return Bought(words, STANDARD, None, Shape((Prism(section, 0.0, self.length),)))
 
 
 def key(width: float, length: float, form: Form = "A") -> Key | None:

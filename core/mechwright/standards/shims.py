@@ -7,6 +7,9 @@ from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.shape import Shape, ring
 from mechwright.standards.table import table
 
+STANDARD = "DIN 988"
+"""Of shim rings."""
+
 THICKNESSES = (0.1, 0.15, 0.2, 0.3, 0.5, 1.0)
 """In which they are sold, mm."""
 
@@ -31,7 +34,7 @@ class Shim:
         words = f"{self.designation} x {thickness:g}"
         shape = Shape((ring(self.inner, self.outer, thickness),))
         fit = hole_fit(self.inner, "D12") if on_shaft else shaft_fit(self.outer, "d12")
-        return Bought(words, "DIN 988", None, shape, note, fits=(fit,))
+        return Bought(words, STANDARD, None, shape, note, fits=(fit,))
 
 
 def shims() -> tuple[Shim, ...]:

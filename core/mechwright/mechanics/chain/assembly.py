@@ -44,7 +44,7 @@ def assembly_of(params: ChainParams, families: Families) -> Assembly:
 def _plane(link: Link, parts: tuple[Part, ...]) -> Plane:
     motion = link.family.solve(link.params, 2)
     levels = {name: float(poses.position[0, 2]) for name, poses in motion.poses.items()}
-    mounting = _mounting(link)
+    mounting = link.transmission.mounting or stage_mounting(link)
     if not isinstance(mounting, Mounting | GroundPlate):
         raise DesignError(
             f"stage.{link.number}.family: the family {link.family.name} does not say where its shafts stand, "
@@ -53,10 +53,8 @@ def _plane(link: Link, parts: tuple[Part, ...]) -> Plane:
     return plane_of(parts, levels, mounting)
 
 
-def _mounting(link: Link) -> object:
-    """Of a stage; raises MountingError with the stage's own keys."""
-    if link.transmission.mounting is not None:
-        return link.transmission.mounting
+def stage_mounting(link: Link) -> object:
+    """How a frame holds a stage, as its family says; raises MountingError with the stage's own keys."""
     try:
         return link.family.mounting(link.params)
     except MountingError as error:

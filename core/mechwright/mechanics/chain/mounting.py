@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from mechwright.contracts.mounting import Hub, Mounting, MountingError, Spindle
-from mechwright.mechanics.chain.assembly import Assembly, assembly_of
-from mechwright.mechanics.chain.links import key_of
+from mechwright.mechanics.chain.assembly import Assembly, assembly_of, stage_mounting
+from mechwright.mechanics.chain.links import Link, key_of
 from mechwright.mechanics.chain.params import ChainParams, Families
 from mechwright.mechanics.chain.placing import Placed
 from mechwright.mechanics.chain.planes import Plane
@@ -21,7 +21,8 @@ def mounting_of(params: ChainParams, families: Families) -> Mounting:
     Raises
     ------
     MountingError
-        A stage has a ground plate of its own, or two hubs on one shaft have other bores, or keyways.
+        No frame holds a stage, such as a slide or a stage with a ground plate of its own; or two hubs on one
+        shaft have other bores, or keyways.
     """
     whole = assembly_of(params, families)
     shafts = tuple(part.name for part in whole.shafts if is_shaft(part.name))
@@ -33,28 +34,29 @@ def _spindles(whole: Assembly) -> Iterator[Spindle]:
     joined: Spindle | None = None
     entering = 1.0
     for place, plane in zip(whole.places, whole.planes, strict=True):
-        link, mounting = place.link, _of_stage(place, plane)
+        link, mounting = place.link, _of_stage(place.link)
         turning, out = link.transmission.input.body, link.transmission.output
         for own in mounting.spindles:
             here = _raised(own, place, plane, entering)
             if own.body == turning and joined is not None:
                 yield _together(joined, here, link.number)
             elif out is None or own.body != out.body or place is whole.places[-1]:
-                yield here if own.body == turning else replace(here, drives=False)
-        if out is not None:
-            joined = next(
-                _raised(one, place, plane, entering) for one in mounting.spindles if one.body == out.body
-            )
+                yield here
+        leaving = (
+            None if out is None else next((one for one in mounting.spindles if one.body == out.body), None)
+        )
+        if leaving is not None:
+            joined = _raised(leaving, place, plane, entering)
             entering = joined.torque
 
 
-def _of_stage(place: Placed, plane: Plane) -> Mounting:
-    if isinstance(plane.mounting, Mounting):
-        return plane.mounting
+def _of_stage(link: Link) -> Mounting:
+    found = stage_mounting(link)
+    if isinstance(found, Mounting):
+        return found
     raise MountingError(
-        f"stage.{place.link.number}.family: stage {place.link.number}, {place.link.family.name}, has a "
-        "ground plate of its own, and no frame holds that with the bearings of other stages; leave [machine] "
-        "out"
+        f"stage.{link.number}.family: stage {link.number}, {link.family.name}, has a ground plate of its "
+        "own, and no frame holds that with the bearings of other stages; leave [machine] out"
     )
 
 

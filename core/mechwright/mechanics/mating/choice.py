@@ -27,6 +27,9 @@ from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, ROOM, Match, Round, matches, rounds_of
 
+BASIC = "H7"
+"""Of a hole whose pin is below its size by a class that has the clearance in it, such as f7."""
+
 DRAWN = 0.002
 """A hole is drawn with a clearance if it is wider than its pin by more, mm."""
 
@@ -58,6 +61,13 @@ class Assembled:
     def same_group(self, match: Match) -> bool:
         """Whether pin and hole move as one."""
         return self.heads[match.pin] == self.heads[match.hole]
+
+    def pair(self, match: Match) -> str:
+        """The names of both parts, as the settings have them.
+
+        A shaft ``shaft`` in a plate ``crank`` is ``"shaft in crank"``.
+        """
+        return f"{self.bodies[match.pin].part.name} in {self.bodies[match.hole].part.name}"
 
     def turns_on(self, k: int, one: Round, on: str | None = None) -> bool:
         """Whether a face has the axis of a joint about which its group turns, on a group or on any."""
@@ -91,12 +101,8 @@ def _coaxial(one: Round, point: Array, axis: Array) -> bool:
     return bool(np.linalg.norm(away - (away @ axis) * axis) <= NEAR)
 
 
-def pin_fit(whole: Assembled, match: Match, fits: Fits) -> Fit | None:
-    """The limits of a pin: its own, else those that are chosen; None of a bought one without."""
-    if match.outside.fit is not None:
-        return match.outside.fit
-    if whole.bodies[match.pin].part.bought is not None:
-        return None
+def pin_fit(whole: Assembled, match: Match, fits: Fits) -> Fit:
+    """The limits of a pin that has none of its own, by what it does in a hole."""
     settings, hole = fits.settings, match.inside.fit
     name = settings.shaft
     if whole.is_tube(match.pin) and whole.same_group(match):
@@ -107,17 +113,16 @@ def pin_fit(whole: Assembled, match: Match, fits: Fits) -> Fit | None:
 
 
 def hole_class(whole: Assembled, match: Match, fits: Fits) -> str | None:
-    """The class of a hole by what the pair is for; None where the drawn clearance decides."""
-    body, pin, settings = whole.bodies[match.hole].part, whole.bodies[match.pin].part, fits.settings
-    own = fits.own.get(f"{pin.name} in {body.name}")
-    if own is not None:
-        return own
-    fit = pin_fit(whole, match, fits)
+    """The class of a hole by what the pair is for, with a pin that has its limits.
+
+    None where the drawn clearance decides.
+    """
+    pin, fit, settings = whole.bodies[match.pin].part, match.outside.fit, fits.settings
     if not whole.same_group(match):
         if settings.running is not None:
             return settings.running
-        if fit is not None and fit.upper < 0:
-            return "H7"
+        if fit is not None and fit.upper < 0:  # the pin has all of the clearance
+            return BASIC
         return None if match.inside.diameter - match.outside.diameter > DRAWN else RUNNING
     if whole.is_tube(match.hole) and not whole.in_hole(match.hole):
         return settings.spacer
@@ -128,7 +133,9 @@ def hole_class(whole: Assembled, match: Match, fits: Fits) -> str | None:
         return settings.hub
     others = {other.hole for other in whole.matches if other.pin == match.pin and whole.same_group(other)}
     plates = [k for k in others if not whole.is_tube(k)]
-    return settings.pressed if len(plates) < 2 else settings.hub
+    # A pin that is thinner, since it runs elsewhere, is held by no press.
+    thin = fit is not None and fit.upper < 0 and fit.name != settings.shaft
+    return settings.hub if thin or len(plates) > 1 else settings.pressed
 
 
 def _first(whole: Assembled, match: Match) -> bool:
@@ -145,8 +152,8 @@ def _size(whole: Assembled, k: int) -> float:
 
 
 def hole_fit_of(whole: Assembled, match: Match, fits: Fits) -> Fit | None:
-    """The limits of a hole by its pin; None for room, and where nothing is known of a bought pin."""
-    name, shaft = hole_class(whole, match, fits), pin_fit(whole, match, fits)
+    """The limits of a hole by its pin, which has its own; None for room, and where a bought pin has none."""
+    name, shaft = hole_class(whole, match, fits), match.outside.fit
     size = match.outside.diameter if shaft is None else shaft.size
     if name is not None:
         return hole_fit(size, name)

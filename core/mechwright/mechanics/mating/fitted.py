@@ -1,6 +1,6 @@
 """The parts of an assembly with the fits of all round faces that go into each other."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from mechwright.contracts.bodies import placed
@@ -13,40 +13,53 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.mechanics.mating.choice import Assembled, hole_fit_of, pin_fit
-from mechwright.mechanics.mating.rounds import Round
+from mechwright.mechanics.mating.rounds import Match, Round
 
-Chosen = dict[tuple[str, str], Fit]
+Limits = dict[tuple[str, str], Fit]
 """Names of a part and of a face of it to the limits that it gets."""
 
 
 def with_fits(parts: Sequence[Part], motion: Motion, fits: Fits) -> list[Part]:
     """The parts, each round face that another one touches with its limits.
 
-    What a part says of itself stays. Of two pairs that share a face the looser one decides, so that both
-    go together.
+    Pins come first: the limits of a hole follow from those that its pin has in the end. What a part says of
+    itself stays, but for the pairs that the settings name. Of two pairs that share a face the looser one
+    decides, so that both go together.
     """
     whole = Assembled(placed(parts, motion), motion)
     _check_pairs(whole, fits)
-    chosen: Chosen = {}
-    for name, face, fit in (*_pairs(whole, fits), *_hubs(whole, fits)):
-        known = chosen.get((name, face))
-        if known is None or _looser(fit, known):
-            chosen[name, face] = fit
+    pins = _loosest(_pins(whole, fits))
+    matches = [_with_pin(whole, match, pins) for match in whole.matches]
+    holes = _loosest([*_holes(whole, matches, fits), *_hubs(whole, fits)])
+    chosen = pins | holes | _loosest(_own(whole, matches, fits))
     return [
         _part(part, {face: fit for (name, face), fit in chosen.items() if name == part.name})
         for part in parts
     ]
 
 
+def _loosest(found: Iterable[tuple[str, str, Fit]]) -> Limits:
+    """The limits of each face: those that leave most play."""
+    limits: Limits = {}
+    for name, face, fit in found:
+        known = limits.get((name, face))
+        if known is None or _looser(fit, known):
+            limits[name, face] = fit
+    return limits
+
+
 def _check_pairs(whole: Assembled, fits: Fits) -> None:
     """Raise DesignError for a pair of the settings that is none of the assembly."""
-    names = [(whole.bodies[m.pin].part.name, whole.bodies[m.hole].part.name) for m in whole.matches]
-    known = {f"{one} in {two}": None for one, two in names}
+    known = {whole.pair(match): whole.bodies[match.hole].part for match in whole.matches}
     for pair in fits.own:
         if pair not in known:
             pin, _, body = pair.partition(" in ")
             hint = did_you_mean(pair, known) or f"the pairs are: {', '.join(known) or 'none'}"
             raise DesignError(f'fits.of."{pair}": no part {pin} goes into a part {body}; {hint}')
+        if known[pair].bought is not None:
+            raise DesignError(
+                f'fits.of."{pair}": the hole of {known[pair].name} is its maker\'s; leave the pair out'
+            )
 
 
 def _looser(one: Fit, two: Fit) -> bool:
@@ -56,16 +69,35 @@ def _looser(one: Fit, two: Fit) -> bool:
     return one.lower > two.lower
 
 
-def _pairs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
+def _pins(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
     for match in whole.matches:
-        pin, body = whole.bodies[match.pin].part, whole.bodies[match.hole].part
-        shaft = pin_fit(whole, match, fits)
-        if match.outside.fit is None and pin.bought is None and shaft is not None:
-            yield pin.name, match.outside.face, shaft
+        pin = whole.bodies[match.pin].part
+        if match.outside.fit is None and pin.bought is None:
+            yield pin.name, match.outside.face, pin_fit(whole, match, fits)
+
+
+def _with_pin(whole: Assembled, match: Match, pins: Limits) -> Match:
+    """The pair with the limits that its pin has in the end."""
+    fit = pins.get((whole.bodies[match.pin].part.name, match.outside.face), match.outside.fit)
+    return replace(match, outside=replace(match.outside, fit=fit))
+
+
+def _holes(whole: Assembled, matches: Sequence[Match], fits: Fits) -> Iterator[tuple[str, str, Fit]]:
+    for match in matches:
+        body = whole.bodies[match.hole].part
         if match.inside.fit is None and body.bought is None:
             found = hole_fit_of(whole, match, fits)
             if found is not None:
                 yield body.name, match.inside.face, found
+
+
+def _own(whole: Assembled, matches: Sequence[Match], fits: Fits) -> Iterator[tuple[str, str, Fit]]:
+    """Holes of the pairs that the settings name, whatever their parts say."""
+    for match in matches:
+        body, pair = whole.bodies[match.hole].part, whole.pair(match)
+        if pair in fits.own:
+            size = match.outside.diameter if match.outside.fit is None else match.outside.fit.size
+            yield body.name, match.inside.face, hole_fit(size, fits.own[pair])
 
 
 def _hubs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:

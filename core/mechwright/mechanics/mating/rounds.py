@@ -90,7 +90,7 @@ class Match:
         return h0 - d1, h1 - d0
 
     @property
-    def unsaid(self) -> int:
+    def missing_fits(self) -> int:
         """Of how many of both faces the drawing gives no limits."""
         return (self.outside.fit is None) + (self.inside.fit is None)
 
@@ -177,7 +177,7 @@ def matches(bodies: Sequence[Placed], sample: int, moved: Sequence[int], onto: S
             pairs += [(two, one, b, a) for a in faces[one] for b in faces[two] if a.inside and not b.inside]
             fitting = [Match(pin, hole, a, b) for pin, hole, a, b in pairs if _fits(a, b)]
             if fitting:  # the tightest of those that the drawing says tells how the two go together
-                found.append(min(fitting, key=lambda match: (match.unsaid, match.play)))
+                found.append(min(fitting, key=lambda match: (match.missing_fits, match.play)))
     return found
 
 
