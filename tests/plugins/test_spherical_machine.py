@@ -15,6 +15,7 @@ from mechwright import host
 from mechwright.cli.app import make_app
 from mechwright.contracts.finding import Severity, errors
 from mechwright.designs.design import design_of
+from mechwright.machine.frame.coupled import SHAFT_GAP
 from mechwright.remedies import Limits, tried
 from mechwright_spherical.family import Spherical
 from mechwright_spherical.kinematics.drive import train_of
@@ -70,8 +71,8 @@ def test_motor_coupling_and_pillars_stand_along_the_input_axis(example):
         assert np.cross(origin, axis) == pytest.approx(np.zeros(3), abs=1e-9)
         assert rotation[:, 2] == pytest.approx(-axis)
     coupling = places(found, "coupling")[0][0] @ axis
-    # Its lower end is out by half its length, and the shaft ends in its middle.
-    assert coupling - flange.end == pytest.approx(25 / 2)
+    # Its lower end is out by half its length, and the shaft ends short of its middle.
+    assert coupling - flange.end == pytest.approx(25 / 2 + SHAFT_GAP)
     pillars = [origin for origin, _ in places(found, "motor-pillar")]
     assert len(pillars) == 4
     for origin in pillars:
@@ -232,7 +233,7 @@ def test_an_arc_over_the_gears_carries_the_motor_of_a_five_bar():
 def test_of_several_outputs_each_is_proposed():
     (fault,) = errors(design({"output": ""}, example=FIVE).check())
     assert fault.parameter == "machine.output"
-    assert fault.proposed == ({"machine.output": "arm"}, {"machine.output": "idler"})
+    assert fault.proposed == ({"machine.output": "arm"}, {"machine.output": "idler"}, {"machine.frame": "none"})
 
 
 def test_the_post_turns_away_from_a_motor_at_the_far_end():

@@ -50,6 +50,8 @@ class Hub:
     bonded
         Length on which a hub without a keyway is bonded to the shaft, mm: of several hubs the shortest; None
         for all of the seat.
+    pieces
+        Lengths of the parts that are the hub one on the other, mm; none where it is one part.
     """
 
     low: float
@@ -60,11 +62,17 @@ class Hub:
     material: str = "aluminium"
     recess: float = math.inf
     bonded: float | None = None
+    pieces: tuple[float, ...] = ()
 
     @property
     def length(self) -> float:
         """Of the seat, mm."""
         return self.high - self.low
+
+    @property
+    def stacked(self) -> tuple[float, ...]:
+        """Lengths of its parts from below, mm."""
+        return self.pieces or (self.length,)
 
     @property
     def grip(self) -> float:

@@ -27,7 +27,15 @@ class Shim:
     @property
     def designation(self) -> str:
         """How it is ordered, without its thickness."""
-        return f"DIN 988 - {self.inner:g} x {self.outer:g}"
+        return f"{STANDARD} - {self.inner:g} x {self.outer:g}"
+
+    def part_name(self, thickness: float) -> str:
+        """Of the part that stands for the rings of a stack, drawn with this thickness, mm.
+
+        >>> Shim(12, 18).part_name(0.2)
+        'shim-12x18x0_2'
+        """
+        return f"shim-{self.inner:g}x{self.outer:g}x{thickness:g}".replace(".", "_")
 
     def bought(self, thickness: float, note: str = "", *, on_shaft: bool = True) -> Bought:
         """How a ring of this thickness, mm, is ordered; it stands on z = 0, on a shaft or in a bore."""

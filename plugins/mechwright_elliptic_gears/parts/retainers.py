@@ -78,6 +78,8 @@ class Disc:
     def stack(self) -> AxialStack:
         """The play of what turns on the shaft."""
         under = sum(length for _, length, _ in self.lengths)
+        where = "between the upper gear and the disc on the shaft"
+        rings = Shimming(self.shim.designation, THICKNESSES, where, LEFT, part=self.part_name)
         return AxialStack(
             f"play of the gears on {self.shaft}",
             (
@@ -87,22 +89,16 @@ class Disc:
                     for name, length, off in self.lengths
                 ),
             ),
-            LEFT - 0.02,
+            LEFT - rings.reading,
             MOST,
-            Shimming(
-                self.shim.designation,
-                THICKNESSES,
-                "between the upper gear and the disc on the shaft",
-                LEFT,
-                part=self.part_name,
-            ),
+            rings,
             STANDS_OUT,
         )
 
     @property
     def part_name(self) -> str:
         """Of the part that stands for its shim rings."""
-        return f"shim-{self.shim.inner:g}x{self.shim.outer:g}x{self.ring:g}".replace(".", "_")
+        return self.shim.part_name(self.ring)
 
 
 def discs_of(params: EllipticGearParams, layout: Layout) -> tuple[Disc, ...]:

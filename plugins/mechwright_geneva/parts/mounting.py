@@ -27,14 +27,16 @@ def mounting_of(params: GenevaParams) -> Mounting:
                 ({f"parameters.{key}": 10.0},),
             )
     force, wheel_torque = shares(m)
-    top = sizes.thickness + sizes.axial_gap + sizes.crank_thickness
+    disc = disc_thickness(sizes.thickness, sizes.axial_gap, sizes.material)
+    foot = sizes.thickness + sizes.axial_gap
     driver = Hub(
-        sizes.thickness + sizes.axial_gap - disc_thickness(sizes.thickness, sizes.axial_gap, sizes.material),
-        top,
+        foot - disc,
+        foot + sizes.crank_thickness,
         sizes.driver_bore,
         sizes.driver_keyway_width,
         driver_keyway_angle(m),
         sizes.material,
+        pieces=(disc, sizes.crank_thickness),
     )
     return Mounting(
         (

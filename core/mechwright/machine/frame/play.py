@@ -19,7 +19,6 @@ from mechwright.machine.frame.shafts import (
     hub_ring,
     hub_room,
     ring_of,
-    shim_name,
 )
 from mechwright.standards.shims import THICKNESSES, Shim
 
@@ -29,8 +28,8 @@ FLOAT, RATTLE = (0.1, 0.31), 0.55
 LEFT, HUB_LEFT = 0.12, 0.05
 """What shim rings leave at least of a measured float, and of the gap over a hub, mm."""
 
-HUB_PLAY, HUB_RATTLE = 0.25, 0.9
-"""Greatest play of a hub under its circlip with shim rings and without, mm."""
+HUB_PLAY, HUB_RATTLE = 0.31, 0.9
+"""Greatest play of a hub under its circlip with shim rings, as of a shaft, and without, mm."""
 
 APART = 0.5
 """Least gap of both shafts in a coupling, mm."""
@@ -79,24 +78,28 @@ def _float(seat: Seat, shaft: Turned, levels: Levels) -> AxialStack:
 
 def _hub(seat: Seat, shaft: Turned) -> AxialStack:
     hub, circlip, name = seat.spindle.hub, seat.circlip, f"shaft-{seat.spindle.name}"
-    ring, off = hub_ring(seat), hub_room(seat)
+    ring, where = hub_ring(seat), "between the hub and its circlip"
     lengths = (
         StackLength.of(shaft.length_of(LOADED_WALL), 1, name),
         StackLength("circlip", -1, circlip.thickness, -circlip.thinner, 0.0, True, circlip.part_name),
-        StackLength("hub, ISO 2768-m", -1, hub.length, -off, off),
+        *(
+            StackLength(f"hub{f', part {count}' if hub.pieces else ''}, ISO 2768-m", -1, one, -off, off)
+            for count, one in enumerate(hub.stacked, start=1)
+            for off in (general_length(one, "medium"),)
+        ),
     )
     return AxialStack(
         f"play of the hub on {name}",
         lengths,
         0.0,
         HUB_RATTLE if ring is None else HUB_PLAY,
-        None if ring is None else _shimming(ring, off, "between the hub and its circlip", HUB_LEFT),
+        None if ring is None else _shimming(ring, hub_room(seat), where, HUB_LEFT),
         LOADED_WALL,
     )
 
 
 def _shimming(ring: Shim, drawn: float, where: str, least: float) -> Shimming:
-    return Shimming(ring.designation, THICKNESSES, where, least, part=shim_name(ring, drawn))
+    return Shimming(ring.designation, THICKNESSES, where, least, part=ring.part_name(drawn))
 
 
 def coupling_stack(bracket: Bracket, seat: Seat, inner: float, thickness: float) -> AxialStack:

@@ -80,9 +80,9 @@ def hub_ring(seat: Seat) -> Shim | None:
 def hub_room(seat: Seat) -> float:
     """By how much a hub may be thicker than drawn, mm: the groove lies so much higher.
 
-    It is the general tolerance of its length, and the thickness of the shim ring that is drawn.
+    It is the sum of the general tolerances of its parts, and the thickness of the shim ring that is drawn.
     """
-    return general_length(seat.spindle.hub.length, "medium")
+    return round(sum(general_length(one, "medium") for one in seat.spindle.hub.stacked), 6)
 
 
 def lowest(seat: Seat) -> float:
@@ -163,12 +163,7 @@ def add_shim(kit: Kit, shim: Shim, thickness: float, body: str, z: float, *, on_
     note = (
         f"a set of {', '.join(f'{one:g}' for one in THICKNESSES)} mm: the play is measured, see stacks.html"
     )
-    kit.bought(shim_name(shim, thickness), shim.bought(thickness, note, on_shaft=on_shaft), body, z)
-
-
-def shim_name(shim: Shim, thickness: float) -> str:
-    """Of the part that stands for the rings of a stack."""
-    return f"shim-{shim.inner:g}x{shim.outer:g}x{thickness:g}".replace(".", "_")
+    kit.bought(shim.part_name(thickness), shim.bought(thickness, note, on_shaft=on_shaft), body, z)
 
 
 def key_of(hub: Hub) -> Key | None:

@@ -95,5 +95,8 @@ def _together(lower: Spindle, upper: Spindle, number: int) -> Spindle:
             ({key: 0},),
         )
     grip = min(low.grip, high.grip)
-    hub = Hub(low.low, high.high, low.bore, material=low.material, recess=high.recess, bonded=grip)
+    pieces = (*low.stacked, high.low - low.high, *high.stacked)
+    hub = Hub(
+        low.low, high.high, low.bore, material=low.material, recess=high.recess, bonded=grip, pieces=pieces
+    )
     return replace(lower, hub=hub, force=lower.force + upper.force)
