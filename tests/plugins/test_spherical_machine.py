@@ -233,7 +233,11 @@ def test_an_arc_over_the_gears_carries_the_motor_of_a_five_bar():
 def test_of_several_outputs_each_is_proposed():
     (fault,) = errors(design({"output": ""}, example=FIVE).check())
     assert fault.parameter == "machine.output"
-    assert fault.proposed == ({"machine.output": "arm"}, {"machine.output": "idler"}, {"machine.frame": "none"})
+    assert fault.proposed == (
+        {"machine.output": "arm"},
+        {"machine.output": "idler"},
+        {"machine.frame": "none"},
+    )
 
 
 def test_the_post_turns_away_from_a_motor_at_the_far_end():
