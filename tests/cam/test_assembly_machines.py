@@ -5,11 +5,13 @@ from pathlib import Path
 import pytest
 from by_night import by_night
 from cam.assembly_check import badly_pressed, falling, faults, loose, unreached
+from manifold3d import Manifold
 
 from mechwright.pipeline import Build, Wanted
 from mechwright.plugins.host import host
 from mechwright_cad.assembly_order.inspections import order_findings
 from mechwright_cad.assembly_order.plan import plan_of
+from mechwright_cad.assembly_order.press import presses, support
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -55,6 +57,26 @@ def test_screws_of_a_chain_are_reached_and_its_presses_supported(name):
     with Build(EXAMPLES / "chains" / f"{name}.toml", host(), Wanted("model")) as build:
         found = plan_of(build)
     assert [one for one in order_findings(found, framed=False) if one.severity != "note"] == []
+
+
+@by_night
+def test_a_shaft_that_stands_in_its_plate_bears_a_press_where_its_lower_end_can_be_reached(monkeypatch):
+    with Build(EXAMPLES / "chains" / "geneva-behind-gears-machine.toml", host(), Wanted("model")) as build:
+        order = plan_of(build).order
+    step, match = next(
+        (step, match)
+        for step in order.steps
+        for match in (presses(order, step) if step.way is not None else ())
+        if match.hole in step.moved and support(order, step, match).bears == "end" and step.root == order.root
+    )
+    assert support(order, step, match).holds
+    pin = order.standing.solid(match.pin)
+    low = pin.bounding_box()[2]
+    (x, y), solids = match.outside.at[:2], order.standing.solid
+    block = Manifold.cube((40, 40, 10), center=True).translate((x, y, low - 20))
+    plate = next(k for k in step.onto if k != match.pin)
+    monkeypatch.setattr(order.standing, "solid", lambda k: block if k == plate else solids(k))
+    assert not support(order, step, match).holds
 
 
 @by_night

@@ -57,7 +57,7 @@ def support(order: Order, step: Step, match: Match) -> Support:
     """What bears a press at a step."""
     held = _retained(order, step)
     if match.hole in step.moved:
-        return Support("end", (), match.pin in held)
+        return Support("end", (), match.pin in held or _end_is_free(order, step, match))
     below = _below(order, step, match)
     packings, end = [], 0.0
     for low, high, k in below:
@@ -85,6 +85,17 @@ def _below(order: Order, step: Step, match: Match) -> list[tuple[float, float, i
             along = np.asarray(met.to_mesh64().vert_properties)[:, :3] @ way - start @ way
             found.append((round(float(along.min()), 3), round(float(along.max()), 3), k))
     return sorted(found)
+
+
+def _end_is_free(order: Order, step: Step, match: Match) -> bool:
+    """Whether a rod of half the seat's diameter can be put under the far end of a pin that stands there."""
+    way = np.array(step.way)
+    ends = np.asarray(order.standing.solid(match.pin).to_mesh64().vert_properties)[:, :3] @ way
+    seat = match.outside.at
+    start = seat + (ends.max() - seat @ way) * way
+    rod = Manifold.cylinder(FREE, match.outside.diameter / 4, circular_segments=_CORNERS)
+    placed = rod.transform(np.column_stack((frame_of(way).T, start)))
+    return all((placed ^ order.standing.solid(k)).is_empty() for k in set(step.onto) - {match.pin})
 
 
 def filled(order: Order, step: Step) -> Iterator[tuple[int, int]]:
