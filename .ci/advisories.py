@@ -12,7 +12,6 @@ import sys
 import tomllib
 from collections import defaultdict
 from datetime import UTC, datetime
-from itertools import chain
 from pathlib import Path
 
 from packaging.requirements import Requirement
