@@ -16,7 +16,9 @@ from mechwright_cad.exporters import (
     ThreeMfExporter,
 )
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
+from mechwright_cad.plate_drawing.page import PlateDrawings
 from mechwright_cad.results import Assembled, PartPicture, PartSolid
+from mechwright_cad.sheet.settings import DrawingTable
 from mechwright_cad.turned_drawing.page import TurnedDrawings
 
 
@@ -34,6 +36,8 @@ def mechwright_register() -> list[type[Plugin]]:
         MotionPage,
         BillOfMaterials,
         SoldPlates,
+        DrawingTable,
+        PlateDrawings,
         TurnedDrawings,
         AssemblyGuide,
         Interference,

@@ -19,10 +19,13 @@ from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.turned import EndThread, Groove, KeySeat, Length, Step, Turned, tube
 from mechwright.errors import GeometryError
 from mechwright_cad.sheet.frame import MARGIN, SHEETS
+from mechwright_cad.sheet.settings import DrawingSettings
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
+from mechwright_cad.sheet.title import TitleBlock
 from mechwright_cad.sheet.to_dxf import dxf
 from mechwright_cad.sheet.to_pdf import pdf
-from mechwright_cad.turned_drawing.drawing import SCALES, turned_sheet
+from mechwright_cad.sheet.words import SCALES
+from mechwright_cad.turned_drawing.drawing import turned_sheet
 
 SHAFT = Turned(
     (
@@ -42,8 +45,11 @@ PILLAR = Turned(
 SPACER = tube(8, 11.9, 2, hole_fit(8, "H7"))
 
 
+BLOCK = TitleBlock("design", DrawingSettings())
+
+
 def drawn(turned, name="part"):
-    return turned_sheet(Part(name, None, 0.0, "steel", (Instance("body"),) * 2, turned=turned), "design")
+    return turned_sheet(Part(name, None, 0.0, "steel", (Instance("body"),) * 2, turned=turned), BLOCK)
 
 
 def texts(sheet):
@@ -238,16 +244,19 @@ AGAIN = """
 import sys
 from mechwright.contracts.part import Part
 from mechwright.contracts.turned import tube
+from mechwright_cad.sheet.settings import DrawingSettings
+from mechwright_cad.sheet.title import TitleBlock
 from mechwright_cad.turned_drawing.drawing import turned_sheet
 from mechwright_cad.sheet.to_dxf import dxf
 from mechwright_cad.sheet.to_pdf import pdf
-sheet = turned_sheet(Part("spacer", None, 0.0, "brass", turned=tube(8, 12, 2)), "design")
+block = TitleBlock("design", DrawingSettings())
+sheet = turned_sheet(Part("spacer", None, 0.0, "brass", turned=tube(8, 12, 2)), block)
 sys.stdout.buffer.write(dxf(sheet) + pdf(sheet))
 """
 
 
 def test_another_process_writes_the_same_bytes():
-    sheet = turned_sheet(Part("spacer", None, 0.0, "brass", turned=tube(8, 12, 2)), "design")
+    sheet = turned_sheet(Part("spacer", None, 0.0, "brass", turned=tube(8, 12, 2)), BLOCK)
     environment = {**os.environ, "PYTHONHASHSEED": "4711"}
     done = subprocess.run([sys.executable, "-c", AGAIN], capture_output=True, check=True, env=environment)
     assert done.stdout == dxf(sheet) + pdf(sheet)
@@ -255,7 +264,7 @@ def test_another_process_writes_the_same_bytes():
 
 def test_a_part_that_is_not_turned_has_no_such_drawing():
     with pytest.raises(GeometryError, match="part block is not turned"):
-        turned_sheet(Part("block", None, 0.0, "steel", build=SHAFT.shape.solid))
+        turned_sheet(Part("block", None, 0.0, "steel", build=SHAFT.shape.solid), BLOCK)
 
 
 def test_drawings_of_plates_leave_out_what_is_turned_or_bought():

@@ -9,8 +9,9 @@ from mechwright.arrays import Array
 from mechwright.contracts.part import Part
 from mechwright_cad.assembly_guide.balloons import APART, RADIUS, balloons
 from mechwright_cad.assembly_guide.pictures import Pictures
-from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, frame, ratio
+from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, frame
 from mechwright_cad.sheet.sheet import HEIGHT, Fill, Sheet, Stroke, Text
+from mechwright_cad.sheet.title import TitleBlock
 
 SCALES = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
 """ISO 5455."""
@@ -27,7 +28,7 @@ _CORNERS = 24
 """Of a ring."""
 
 
-def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], design: str) -> Sheet:
+def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], title: TitleBlock) -> Sheet:
     """The smallest sheet that holds the view, not smaller than half its size; A1 if none does."""
     lines = pictures.view.lines(pictures.shifts)
     x0, y0, x1, y1 = shapely.union_all(list(lines.values())).bounds
@@ -68,13 +69,8 @@ def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], desi
         sheet.add(Stroke(tuple((float(x), float(y)) for x, y in np.array(place) + ring * circle), "DIM"))
         sheet.add(Text((place[0], place[1] - HEIGHT / 2), str(balloon.number), align="middle"))
     _list(sheet, listed)
-    bodies = sum(len(part.instances) for those in listed.values() for part in those)
-    rows = (
-        (("Drawing", "assembly, exploded"), ("Scale", f"{ratio(scale)}, axonometric")),
-        (("Design", design), ("Sheet", "1 / 1")),
-        (("Items", f"{len(listed)}"), ("Bodies", f"{bodies}")),
-    )
-    frame(sheet, rows, ())
+    parts = [part for those in listed.values() for part in those]
+    frame(sheet, title.of_assembly(parts, len(listed), scale), ())
     # Above the view, which may reach down beside the title block.
     for k, line in enumerate(notes, start=1):
         sheet.add(Text((MARGIN + EDGE, sheet.height - MARGIN - LINE * k), line, height=2.5))

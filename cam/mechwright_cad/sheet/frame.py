@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mechwright_cad.sheet.sheet import HEIGHT, Sheet, Text
+from mechwright_cad.sheet.sheet import HEIGHT, Sheet, Text, width_of
 
 SHEETS = ((297.0, 210.0), (420.0, 297.0), (594.0, 420.0), (841.0, 594.0))
 """A4 to A1, lying; mm."""
@@ -10,14 +10,14 @@ SHEETS = ((297.0, 210.0), (420.0, 297.0), (594.0, 420.0), (841.0, 594.0))
 MARGIN, EDGE = 10.0, 8.0
 """From the paper's edge to the frame, and from the frame to what is drawn, mm."""
 
-TITLE = (125.0, 34.0)
+TITLE = (150.0, 34.0)
 """Width and height of the title block, mm."""
 
 LINE = 5.5
 """From one line of notes to the next, mm."""
 
-Row = tuple[tuple[str, str], tuple[str, str]]
-"""Two fields of the title block beside each other: name and value of each."""
+Fields = Sequence[Sequence[tuple[str, str, float]]]
+"""Rows of the title block: name, value and width of each field, in tenths of the block's width."""
 
 
 def ratio(scale: float) -> str:
@@ -29,21 +29,25 @@ def ratio(scale: float) -> str:
     return f"{scale:g} : 1" if scale >= 1 else f"1 : {1 / scale:g}"
 
 
-def frame(sheet: Sheet, rows: Sequence[Row], notes: Sequence[str]) -> None:
+def frame(sheet: Sheet, rows: Fields, notes: Sequence[str]) -> None:
     """Frame, title block (ISO 7200), and the notes beside it."""
     x1, y1 = sheet.width - MARGIN, sheet.height - MARGIN
     sheet.lines([(MARGIN, MARGIN), (x1, MARGIN), (x1, y1), (MARGIN, y1), (MARGIN, MARGIN)], "FRAME")
     x0, top = x1 - TITLE[0], MARGIN + TITLE[1]
     sheet.lines([(x0, MARGIN), (x0, top), (x1, top)], "FRAME")
     step = TITLE[1] / len(rows)
-    split = x0 + 0.6 * TITLE[0]
-    sheet.lines([(split, MARGIN), (split, top)], "DIM")
     for k, row in enumerate(rows):
-        y = top - step * (k + 1)
+        x, y = x0, top - step * (k + 1)
         if k < len(rows) - 1:
             sheet.lines([(x0, y), (x1, y)], "DIM")
-        for x, (name, value) in zip((x0, split), row, strict=True):
-            sheet.add(Text((x + 2, y + step - 3.5), name, height=2.0))
-            sheet.add(Text((x + 2, y + 2), value, height=HEIGHT))
+        for count, (name, value, share) in enumerate(row):
+            wide = share * TITLE[0] / 10
+            if count:
+                sheet.lines([(x, y), (x, y + step)], "DIM")
+            sheet.add(Text((x + 1.5, y + step - 3.0), name, height=2.0))
+            if value:
+                height = min(HEIGHT, HEIGHT * (wide - 3.0) / width_of(value))
+                sheet.add(Text((x + 1.5, y + 1.3), value, height=height))
+            x += wide
     for k, line in enumerate(notes):
         sheet.add(Text((MARGIN + EDGE, top - LINE * (k + 1)), line, height=2.5))

@@ -6,7 +6,7 @@ from typing import Literal
 
 from mechwright.geometry.segments import Point
 
-Layer = Literal["OUTLINE", "DIM", "CENTRE", "HATCH", "TEXT", "FRAME"]
+Layer = Literal["OUTLINE", "DIM", "CENTRE", "HIDDEN", "HATCH", "TEXT", "FRAME"]
 
 THICK, THIN = 0.5, 0.25
 """Widths of lines, mm (ISO 128: one group)."""
@@ -15,6 +15,7 @@ WIDTH: dict[Layer, float] = {
     "OUTLINE": THICK,
     "DIM": THIN,
     "CENTRE": THIN,
+    "HIDDEN": THIN,
     "HATCH": THIN,
     "TEXT": THIN,
     "FRAME": THICK,
@@ -22,6 +23,9 @@ WIDTH: dict[Layer, float] = {
 
 DASHES = (6.0, 1.5, 0.5, 1.5)
 """Dash, gap, dot, gap of a centre line, mm."""
+
+HIDDEN = (3.0, 1.0)
+"""Dash and gap of a hidden edge, mm."""
 
 HEIGHT = 3.5
 """Of letters, mm (ISO 3098)."""

@@ -19,6 +19,7 @@ from mechwright_cad.sheet.sheet import (
     ARROW,
     DASHES,
     HEIGHT,
+    HIDDEN,
     WIDTH,
     Dimension,
     Fill,
@@ -28,7 +29,7 @@ from mechwright_cad.sheet.sheet import (
     Text,
 )
 
-COLOURS = {"OUTLINE": 7, "DIM": 3, "CENTRE": 1, "HATCH": 8, "TEXT": 7, "FRAME": 7}
+COLOURS = {"OUTLINE": 7, "DIM": 3, "CENTRE": 1, "HIDDEN": 4, "HATCH": 8, "TEXT": 7, "FRAME": 7}
 """Layer to colour index."""
 
 STYLE = "MECHWRIGHT"
@@ -42,8 +43,9 @@ def dxf(sheet: Sheet) -> bytes:
         document.header["$MEASUREMENT"] = 1
         document.header["$LTSCALE"] = 1 / sheet.scale
         document.linetypes.add("CENTER", [sum(DASHES), *_dashes()], description="Center ____ _ ____ _")
+        document.linetypes.add("HIDDEN", [sum(HIDDEN), HIDDEN[0], -HIDDEN[1]], description="Hidden __ __ __")
         for name, width in WIDTH.items():
-            line = "CENTER" if name == "CENTRE" else "CONTINUOUS"
+            line = {"CENTRE": "CENTER", "HIDDEN": "HIDDEN"}.get(name, "CONTINUOUS")
             document.layers.add(name, color=COLOURS[name], linetype=line, lineweight=round(100 * width))
         _style(document, sheet.scale)
         space = document.modelspace()

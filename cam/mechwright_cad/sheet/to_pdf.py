@@ -6,6 +6,7 @@ can be selected.
 
 from mechwright_cad.sheet.sheet import (
     DASHES,
+    HIDDEN,
     SIZE,
     WIDTH,
     Dimension,
@@ -19,6 +20,9 @@ from mechwright_cad.sheet.sheet import (
 
 _POINT = 72 / 25.4
 """Points in a millimetre."""
+
+
+_DASHED: dict[Layer, tuple[float, ...]] = {"CENTRE": DASHES, "HIDDEN": HIDDEN}
 
 
 def pdf(sheet: Sheet, title: str = "") -> bytes:
@@ -63,7 +67,7 @@ def _drawn(item: Item) -> str:
 
 
 def _pen(layer: Layer) -> str:
-    dashes = " ".join(_n(one) for one in DASHES) if layer == "CENTRE" else ""
+    dashes = " ".join(_n(one) for one in _DASHED.get(layer, ()))
     return f"{_n(WIDTH[layer])} w [{dashes}] 0 d"
 
 

@@ -6,10 +6,7 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.turned import KeySeat, Length, Turned
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
-from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame, ratio
-from mechwright_cad.sheet.sheet import Sheet, Text, width_of
-from mechwright_cad.turned_drawing import words
-from mechwright_cad.turned_drawing.dimensions import (
+from mechwright_cad.sheet.dimensions import (
     FREE,
     ROW,
     Label,
@@ -19,10 +16,12 @@ from mechwright_cad.turned_drawing.dimensions import (
     rows_height,
     upright,
 )
-from mechwright_cad.turned_drawing.view import OVERHANG, across, ring, side
-
-SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-"""ISO 5455."""
+from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame
+from mechwright_cad.sheet.sheet import Sheet, Text, width_of
+from mechwright_cad.sheet.title import TitleBlock, projection_sign
+from mechwright_cad.sheet.words import SCALES, number
+from mechwright_cad.turned_drawing import words
+from mechwright_cad.turned_drawing.view import OVERHANG, across, side
 
 LEAST = 0.5
 """A smaller scale than this is taken only where the largest sheet wants it."""
@@ -81,7 +80,7 @@ def _lengths(turned: Turned) -> list[tuple[float, float, str]]:
     for one in turned.lengths:
         limited.append((one.low, one.high, one.text))
         from_foot.discard(_placed_by(one, turned, from_foot))
-    found = [(0.0, end, words.number(end)) for end in sorted(from_foot)]
+    found = [(0.0, end, number(end)) for end in sorted(from_foot)]
     return [*found, *sorted(limited, key=lambda one: (round(one[1] - one[0], 6), one))]
 
 
@@ -131,7 +130,7 @@ _CUT = "Key seat"
 """Title of a cut."""
 
 
-def turned_sheet(part: Part, design: str = "") -> Sheet:
+def turned_sheet(part: Part, title: TitleBlock) -> Sheet:
     """The drawing of a turned part; raises GeometryError for another."""
     turned = part.turned
     if turned is None:
@@ -166,7 +165,7 @@ def turned_sheet(part: Part, design: str = "") -> Sheet:
     for seat in plan.seats:
         _cut(sheet, turned, seat, (x + _to_middle(turned, scale), axis))
         x += _beside(turned, scale)
-    _frame(sheet, part, turned, design)
+    _frame(sheet, part, turned, title)
     return sheet
 
 
@@ -201,23 +200,7 @@ def _cut(sheet: Sheet, turned: Turned, seat: KeySeat, centre: Point) -> None:
     upright(sheet, (floor[0], floor[1]), opposite, centre[0] + sheet.scale * step / 2 + ROW, deep)
 
 
-def _frame(sheet: Sheet, part: Part, turned: Turned, design: str) -> None:
-    """Frame, title block, the sign of first-angle projection, and the notes beside them."""
-    rows = (
-        (("Part", part.name), ("Scale", ratio(sheet.scale))),
-        (("Design", design or "-"), ("Sheet", "1 / 1")),
-        (("Material", part.material), ("Make", f"{max(1, len(part.instances))}")),
-    )
-    frame(sheet, rows, words.notes(turned))
-    _first_angle(sheet, (sheet.width - MARGIN - 22.0, MARGIN + 5 * TITLE[1] / 6))
-
-
-def _first_angle(sheet: Sheet, at: Point) -> None:
-    """The sign of ISO 5456-2: a cone from the side, and to its right its end."""
-    x, y = at
-    sheet.lines([(x, y - 1.5), (x + 7, y - 3), (x + 7, y + 3), (x, y + 1.5), (x, y - 1.5)], "DIM")
-    sheet.lines([(x - 1.5, y), (x + 8.5, y)], "CENTRE")
-    for radius in (1.5, 3.0):
-        sheet.lines(ring((x + 14, y), radius), "DIM")
-    sheet.lines([(x + 10, y), (x + 18, y)], "CENTRE")
-    sheet.lines([(x + 14, y - 4), (x + 14, y + 4)], "CENTRE")
+def _frame(sheet: Sheet, part: Part, turned: Turned, title: TitleBlock) -> None:
+    """Frame, title block, the sign of the projection, and the notes beside them."""
+    frame(sheet, title.of_part(part, part.material, sheet.scale), words.notes(turned))
+    projection_sign(sheet, third_angle=title.third_angle)

@@ -25,13 +25,16 @@ class TurnedDrawings(Page):
         parts = [part for part in build.parts if part.kind == "turned"]
         if not parts:
             return {}
+        from mechwright_cad.sheet.settings import DrawingTable
+        from mechwright_cad.sheet.title import TitleBlock
         from mechwright_cad.sheet.to_dxf import dxf
         from mechwright_cad.sheet.to_pdf import pdf
         from mechwright_cad.turned_drawing.drawing import turned_sheet
 
         made = {}
+        block = TitleBlock(build.design.name, build.design.table(DrawingTable))
         for part in parts:
-            sheet = turned_sheet(part, build.design.name)
+            sheet = turned_sheet(part, block)
             title = f"{build.design.name}: {part.name}"
             for suffix, content in zip(SUFFIXES, (dxf(sheet), pdf(sheet, title)), strict=True):
                 made[part.name + suffix] = content

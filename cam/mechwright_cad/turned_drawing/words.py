@@ -7,23 +7,15 @@ from mechwright.contracts.limits import limits
 from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned, limited
 from mechwright.errors import DesignError
 from mechwright.standards.keys import depth_tolerance, length_tolerance
+from mechwright_cad.sheet.words import GENERAL, number
 
-FINE, FAIR, PLAIN = "Ra 0.8", "Ra 1.6", "Ra 3.2"
-"""Roughness of seats that are pressed, of those that turn or slide, and of all else, µm."""
+FINE, FAIR = "Ra 0.8", "Ra 1.6"
+"""Roughness of seats that are pressed, and of those that turn or slide, µm."""
 
 _PRESSED = re.compile("[jkmnp][4-7]")
 
 SLENDER = 4.0
 """From this length in diameters on a part is turned between centres."""
-
-
-def number(value: float) -> str:
-    """A length, mm, to a thousandth.
-
-    >>> number(12.0), number(9.7999999)
-    ('12', '9.8')
-    """
-    return f"{round(value, 3):g}"
 
 
 def of_step(step: Step) -> str:
@@ -85,10 +77,7 @@ def of_thread(thread: EndThread) -> str:
 
 def notes(turned: Turned) -> list[str]:
     """What holds for the whole part."""
-    found = [
-        "Tolerances ISO 2768-mK, principle ISO 8015",
-        f"Surfaces {PLAIN}, edges broken 0.2 (ISO 13715)",
-    ]
+    found = [*GENERAL]
     if turned.chamfer:
         found.append(f"Both ends {number(turned.chamfer)} x 45°")
     fits = [step for step in turned.steps if step.fit is not None]

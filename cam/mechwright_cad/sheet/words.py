@@ -1,0 +1,22 @@
+"""Numbers and sentences that every drawing has."""
+
+SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+"""ISO 5455."""
+
+PLAIN = "Ra 3.2"
+"""Roughness of surfaces that have none of their own, µm."""
+
+GENERAL = (
+    "Tolerances ISO 2768-mK, principle ISO 8015",
+    f"Surfaces {PLAIN}, edges broken 0.2 (ISO 13715)",
+)
+"""What holds for a whole part."""
+
+
+def number(value: float) -> str:
+    """A length, mm, to a thousandth.
+
+    >>> number(12.0), number(9.7999999)
+    ('12', '9.8')
+    """
+    return f"{round(value, 3) + 0.0:g}" if abs(value) < 1000 else f"{round(value, 3)}".removesuffix(".0")

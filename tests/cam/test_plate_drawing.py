@@ -1,0 +1,243 @@
+"""Drawings of plates: what they say is enough to make the part, and nothing on them stands in the way."""
+
+import io
+import math
+import re
+from collections import defaultdict
+from itertools import combinations
+from pathlib import Path
+
+import ezdxf
+import pytest
+import shapely
+from by_night import by_night
+
+from mechwright import host
+from mechwright.contracts.details import Thread
+from mechwright.contracts.fits import hole_fit
+from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
+from mechwright.contracts.tolerance_settings import Tolerances, ToleranceSettings
+from mechwright.designs.design import design_of, load
+from mechwright.errors import DesignError, GeometryError
+from mechwright.geometry import Loop, Outline
+from mechwright.pipeline.tolerances import TolerancesTable
+from mechwright_cad.plate_drawing.drawing import PlateDrawing, plate_sheet
+from mechwright_cad.sheet.frame import MARGIN
+from mechwright_cad.sheet.settings import DrawingSettings, DrawingTable
+from mechwright_cad.sheet.sheet import Dimension, Text, width_of
+from mechwright_cad.sheet.title import TitleBlock
+from mechwright_cad.sheet.to_dxf import dxf
+from mechwright_cad.sheet.to_pdf import pdf
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+BLOCK = TitleBlock("design", DrawingSettings())
+
+FEW = ("four-bar-machine", "geneva-straight")
+NIGHT = (
+    "elliptic-pair-machine", "slider-crank-machine", "spherical-machine", "five-bar-machine", "cam-lever",
+    "cam-conjugate", "figure-eight-machine", "geneva-machine", "spur-gears-machine", "nema-17-plate",
+    "noncircular-window", "linkages/jansen", "linkages/klann", "inch-bracket", "geneva-cycloidal",
+)  # fmt: skip
+EACH = [*FEW, *(pytest.param(name, marks=by_night) for name in NIGHT)]
+
+
+def plates(name):
+    design = load(EXAMPLES / f"{name}.toml", host())
+    tolerances = design.table(TolerancesTable)
+    return [PlateDrawing(part, tolerances) for part in design.parts() if part.kind == "plate"]
+
+
+def texts(sheet):
+    found = [one for one in sheet.items if isinstance(one, Text)]
+    return found + [one.text for one in sheet.items if isinstance(one, Dimension)]
+
+
+def box(text):
+    x, y = text.left
+    return shapely.box(x, y, x + width_of(text.text, text.height), y + text.height)
+
+
+HEADS = {"Hole", "Corner", "Contours", "To be measured", "Geometrical tolerances"}
+
+
+def rows(sheet):
+    """The rows of the tables as somebody reads them in a DXF of true size, table by table, left to right."""
+    document = ezdxf.read(io.StringIO(dxf(sheet).decode()))
+    found = []
+    for text in document.modelspace().query("TEXT[layer=='TEXT']"):
+        x, y, _ = (text.dxf.align_point if text.dxf.halign else text.dxf.insert) * sheet.scale
+        found.append((round(x, 3), round(y, 3), text.dxf.text.replace("%%c", "⌀")))
+    lefts = sorted({x for x, _, text in found if text in HEADS}) or [math.inf]
+    lines = defaultdict(list)
+    for x, y, text in found:
+        column = max((left for left in lefts if left <= x + 1e-6), default=-1.0)
+        lines[column, -y].append((x, text))
+    return [[text for _, text in sorted(line)] for _, line in sorted(lines.items())]
+
+
+NUMBER = r"-?\d+(?:\.\d+)?"
+
+
+def rebuilt(sheet):
+    """Rim and round holes of the part, from the rows of the tables alone."""
+    rims, holes, words, contour = defaultdict(list), [], "", ""
+    for row in rows(sheet):
+        line = " | ".join(row)
+        if found := re.fullmatch(r"(\d+) \| ([a-z].*)", line):
+            contour = found[2]
+        elif found := re.search(rf"\d+\.\d+ \| ({NUMBER}) \| ({NUMBER}) \| (straight|R.*)", line):
+            rims[contour].append((float(found[1]), float(found[2]), found[3]))
+        elif found := re.fullmatch(r"[C-Z]+  \d+ x \| (⌀.*|M.*)", line):
+            words = found[1]
+        elif found := re.fullmatch(rf"[C-Z]+\d* \| ({NUMBER}) \| ({NUMBER})(?: \| (.*))?", line):
+            holes.append((float(found[1]), float(found[2]), found[3] or words))
+    return rims, holes
+
+
+def polygon(corners):
+    """The area inside corners joined by lines and arcs."""
+    points = []
+    for (x, y, how), (u, v, _) in zip(corners, corners[1:] + corners[:1], strict=True):
+        points.append((x, y))
+        if found := re.fullmatch(rf"R({NUMBER}) (left|right), centre ({NUMBER}), ({NUMBER})", how):
+            cx, cy = float(found[3]), float(found[4])
+            assert math.hypot(x - cx, y - cy) == pytest.approx(float(found[1]), abs=2e-3)
+            start, turn = math.atan2(y - cy, x - cx), math.atan2(v - cy, u - cx) - math.atan2(y - cy, x - cx)
+            turn = turn % math.tau if found[2] == "left" else -((-turn) % math.tau)
+            steps = 200
+            radius = float(found[1])
+            points += [
+                (
+                    cx + radius * math.cos(start + turn * k / steps),
+                    cy + radius * math.sin(start + turn * k / steps),
+                )
+                for k in range(1, steps)
+            ]
+    return shapely.Polygon(points)
+
+
+@pytest.mark.parametrize("name", EACH)
+def test_the_part_can_be_made_again_from_the_tables_alone(name):
+    told = plates(name)
+    assert told
+    for one in told:
+        sheet = plate_sheet(one, BLOCK)
+        rims, holes = rebuilt(sheet)
+        dx, dy = one.datum
+        bores = [feature for feature in one.part.features if isinstance(feature, Bore)]
+        axes = {(round(bore.centre[0] - dx, 3) + 0.0, round(bore.centre[1] - dy, 3) + 0.0) for bore in bores}
+        assert {(x, y) for x, y, _ in holes} == axes
+        for bore in bores:
+            (words,) = [
+                text
+                for x, y, text in holes
+                if math.hypot(x - bore.centre[0] + dx, y - bore.centre[1] + dy) < 2e-3
+            ]
+            assert f"⌀{bore.fit.text if bore.fit else f'{round(bore.diameter, 3):g}'}" in words
+        if rims.get("outline"):
+            (rim,) = [f.loop for f in one.part.features if isinstance(f, Profile) and f.side == "outside"]
+            wanted = shapely.affinity.translate(shapely.Polygon(rim.flatten(1e-4)), -dx, -dy)
+            off = polygon(rims["outline"]).symmetric_difference(wanted).area
+            assert off < 2e-3 * wanted.length
+
+
+@pytest.mark.parametrize("name", EACH)
+def test_texts_stand_in_the_frame_and_on_no_other_text(name):
+    for one in plates(name):
+        sheet = plate_sheet(one, BLOCK)
+        boxes = [box(text) for text in texts(sheet)]
+        frame = shapely.box(MARGIN, MARGIN, sheet.width - MARGIN, sheet.height - MARGIN)
+        assert all(frame.contains(found) for found in boxes)
+        for first, second in combinations(boxes, 2):
+            assert first.intersection(second).area == 0.0
+
+
+SQUARE = Outline(
+    Loop.polygon([(0, 0), (80, 0), (80, 50), (0, 50)]),
+    (),
+)
+
+
+def plate(**changes):
+    machined = (
+        Bore("dowel", (20.0, 15.0), 6.006, 0.0, 10.0, hole_fit(6, "H7")),
+        Bore("core", (60.0, 15.0), 4.2, 0.0, 8.0),
+        Pocket("recess", Loop.polygon([(30, 20), (50, 20), (50, 40), (30, 40)]), (), 0.0, 3.0),
+        Profile("outside", SQUARE.outer, "outside", 0.0, 10.0),
+    )
+    details = (Thread("hole", (60.0, 15.0), 5.0, 0.8, 6.0),)
+    return Part(
+        "plate", SQUARE, 10.0, "steel", (Instance("ground"),), machined=machined, details=details, **changes
+    )
+
+
+def said(sheet):
+    return [" | ".join(row) for row in rows(sheet)]
+
+
+def test_threads_depths_recesses_and_datums_are_told():
+    one = PlateDrawing(plate(), Tolerances())
+    lines = "\n".join(said(plate_sheet(one, BLOCK)))
+    assert one.datum == (20.0, 15.0), "the hole with a fit"
+    assert "M5x0.8 6 deep; ⌀4.2, 8 deep" in lines
+    assert "⌀6 H7 (0/+0.012) through" in lines
+    assert "recess, 3 deep" in lines
+    assert "60 | 35" in lines, "a corner of the rim, from the dowel"
+
+
+def test_zones_follow_the_tolerances_of_the_design():
+    (hole,) = [hole for hole in _holes(plate()) if hole.fitted]
+    wide = PlateDrawing(plate(), Tolerances(ToleranceSettings(length=0.1)))
+    assert wide.zone(hole) == 0.2
+    assert "⌀0.2" in [text.text for text in texts(plate_sheet(wide, BLOCK))]
+
+
+def _holes(part):
+    from mechwright_cad.plate_drawing.holes import kinds
+
+    return [hole for kind in kinds(part, (0.0, 0.0)) for hole in kind.holes]
+
+
+def test_without_a_hole_the_lower_left_corner_is_the_datum():
+    bare = Part("bare", SQUARE, 5.0, "steel")
+    one = PlateDrawing(bare, Tolerances())
+    assert one.datum == (0.0, 0.0)
+    assert "X and Y from the lower left corner" in said(plate_sheet(one, BLOCK))
+
+
+def test_the_title_block_says_what_the_design_file_says(tmp_path):
+    table = {
+        "owner": "Works", "title": "Press", "number": "4711", "revision": "B", "date": "2026-11-30",
+        "author": "N. N.", "approved": "M. M.", "projection": "third",
+    }  # fmt: skip
+    block = TitleBlock("design", DrawingSettings(**table))
+    first, third = (plate_sheet(PlateDrawing(plate(), Tolerances()), one) for one in (BLOCK, block))
+    shown = [text.text for text in texts(third)]
+    for word in ("Works", "Press", "4711 / plate", "B", "2026-11-30", "N. N.", "M. M."):
+        assert word in shown
+    assert "design" in [text.text for text in texts(first)]
+    hidden = [
+        [x for one in sheet.items if getattr(one, "layer", "") == "HIDDEN" for x, _ in one.points]
+        for sheet in (first, third)
+    ]
+    assert min(hidden[0]) > min(hidden[1]), "the upper face stands on the other side"
+
+
+def test_a_title_of_500_letters_is_refused_by_its_key():
+    content = {"format": 1, "family": "plate", "name": "p", "parameters": {}, "drawing": {"title": "x" * 500}}
+    with pytest.raises(DesignError, match=r"drawing\.title: .*60"):
+        design_of(content, Path("p.toml"), "", host())
+
+
+def test_what_is_no_plate_has_no_such_drawing():
+    with pytest.raises(GeometryError, match="part block is no plate"):
+        PlateDrawing(Part("block", None, 0.0, "steel", build=lambda: None), Tolerances())
+
+
+def test_both_files_are_sound_and_the_same_each_time():
+    sheet = plate_sheet(PlateDrawing(plate(), Tolerances()), BLOCK)
+    assert dxf(sheet) == dxf(plate_sheet(PlateDrawing(plate(), Tolerances()), BLOCK))
+    assert pdf(sheet).startswith(b"%PDF-1.4")
+    audit = ezdxf.read(io.StringIO(dxf(sheet).decode())).audit()
+    assert (audit.errors, audit.fixes) == ([], [])
+    assert DrawingTable.name == "drawing"
