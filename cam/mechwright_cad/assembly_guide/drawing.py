@@ -1,5 +1,6 @@
 """The exploded view as a sheet: lines, balloons, and the list of items beside it (ISO 7573)."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -7,6 +8,7 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.part import Part
+from mechwright.geometry.segments import Point
 from mechwright_cad.assembly_guide.balloons import APART, RADIUS, balloons
 from mechwright_cad.assembly_guide.pictures import Pictures
 from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, frame
@@ -37,11 +39,15 @@ def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], titl
     torques = pictures.plan.torques
     notes = [f"{name}: {torques[name]}" for name in sorted(torques)]
     for paper in SHEETS:
-        wide = paper[0] - 2 * (MARGIN + EDGE) - sum(COLUMNS) - column
+        lists = math.ceil(len(listed) / _most(paper[1]))
+        wide = paper[0] - 2 * (MARGIN + EDGE) - lists * sum(COLUMNS) - column
         high = paper[1] - 2 * (MARGIN + EDGE) - LINE * len(notes)
         fitting = [one for one in SCALES if one * (x1 - x0) <= wide and one * (y1 - y0) <= high]
-        holds = ROW * (len(listed) + 2) + TITLE[1] + 2 * MARGIN <= paper[1]
-        if holds and fitting and (fitting[0] >= SCALES[3] or paper is SHEETS[-1]):
+        if (
+            lists * sum(COLUMNS) <= paper[0] / 2
+            and fitting
+            and (fitting[0] >= SCALES[3] or paper is SHEETS[-1])
+        ):
             break
     scale = fitting[0] if fitting else SCALES[-1]
     sheet = Sheet(*paper, scale)
@@ -77,11 +83,22 @@ def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], titl
     return sheet
 
 
+def _most(high: float) -> int:
+    """Items that a list on a sheet of this height holds."""
+    return int((high - 2 * MARGIN - TITLE[1]) // ROW) - 1
+
+
 def _list(sheet: Sheet, items: Mapping[int, Sequence[Part]]) -> None:
-    """The list of items, from the title block upwards."""
-    x0, low = sheet.width - MARGIN - sum(COLUMNS), MARGIN + TITLE[1]
-    rows = [("Item", "Qty", "Name", "Material, or order as")]
-    for number, those in sorted(items.items()):
+    """The list of items, from the title block upwards; what has no room there stands to the left of it."""
+    ordered, most = sorted(items.items()), _most(sheet.height)
+    for count, start in enumerate(range(0, len(ordered), most), start=1):
+        x0 = sheet.width - MARGIN - count * sum(COLUMNS)
+        _listed(sheet, (x0, MARGIN + TITLE[1]), ordered[start : start + most])
+
+
+def _listed(sheet: Sheet, at: Point, items: Sequence[tuple[int, Sequence[Part]]]) -> None:
+    (x0, low), rows = at, [("Item", "Qty", "Name", "Material, or order as")]
+    for number, those in items:
         first = those[0]
         rows.append(
             (
