@@ -241,3 +241,31 @@ def test_both_files_are_sound_and_the_same_each_time():
     audit = ezdxf.read(io.StringIO(dxf(sheet).decode())).audit()
     assert (audit.errors, audit.fixes) == ([], [])
     assert DrawingTable.name == "drawing"
+
+
+def test_letters_of_other_alphabets_are_written_in_a_font_that_the_file_brings_along():
+    words = {"title": "Мальтийский крест", "owner": "Ἀθῆναι Works", "author": "Šimková"}
+    table = DrawingTable().read(words, Path("p.toml"))
+    data = pdf(plate_sheet(PlateDrawing(plate(), Tolerances()), TitleBlock("design", table)), "Крест")
+    assert data == pdf(plate_sheet(PlateDrawing(plate(), Tolerances()), TitleBlock("design", table)), "Крест")
+    assert b"/FontFile2" in data
+    meant = {
+        int(code, 16): bytes.fromhex(letter.decode()).decode("utf-16-be")
+        for code, letter in re.findall(rb"<([0-9A-F]{4})> <([0-9A-F]{4,8})>\n", data)
+    }
+    shown = [
+        "".join(meant[int(text[k : k + 4], 16)] for k in range(0, len(text), 4))
+        for text in re.findall(rb"<([0-9A-F]+)> Tj", data)
+    ]
+    assert {"Мальтийский крест", "Ἀθῆναι Works"} <= set(shown)
+    assert b"(?" not in data
+
+
+def test_letters_that_no_font_at_hand_has_are_refused_by_their_key(tmp_path, monkeypatch):
+    with pytest.raises(
+        DesignError, match=r"drawing\.title: the font at hand has no letter '轮'; set drawing.font"
+    ):
+        DrawingTable().read({"title": "齿轮"}, Path("p.toml"))
+    (tmp_path / "own.ttf").write_bytes(b"no font")
+    with pytest.raises(DesignError, match=r"drawing\.title: own\.ttf is no TrueType font"):
+        DrawingTable().read({"title": "Ж", "font": "own.ttf"}, tmp_path / "p.toml")

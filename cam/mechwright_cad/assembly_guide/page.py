@@ -55,10 +55,9 @@ class AssemblyGuide(Page):
         from mechwright_cad.assembly_order.plan import plan_of
         from mechwright_cad.bill.items import items
         from mechwright_cad.bill.page import order_of
+        from mechwright_cad.sheet.files import files
         from mechwright_cad.sheet.settings import DrawingTable
         from mechwright_cad.sheet.title import TitleBlock
-        from mechwright_cad.sheet.to_dxf import dxf
-        from mechwright_cad.sheet.to_pdf import pdf
 
         plan, name = build.made(plan_of), build.design.name
         numbered = items(build.parts, order_of(build))
@@ -67,7 +66,7 @@ class AssemblyGuide(Page):
         sheet = assembly_sheet(pictures, numbered, title)
         return {
             HTML: assembly_html(name, plan, numbered, pictures, build.design.stacks),
-            **dict(zip(SHEETS, (dxf(sheet), pdf(sheet, f"{name}: assembly")), strict=True)),
+            **files(sheet, SHEETS, f"{name}: assembly", title),
         }
 
 

@@ -27,17 +27,15 @@ class PlateDrawings(Page):
             return {}
         from mechwright.pipeline.tolerances import TolerancesTable
         from mechwright_cad.plate_drawing.drawing import PlateDrawing, plate_sheet
+        from mechwright_cad.sheet.files import files
         from mechwright_cad.sheet.settings import DrawingTable
         from mechwright_cad.sheet.title import TitleBlock
-        from mechwright_cad.sheet.to_dxf import dxf
-        from mechwright_cad.sheet.to_pdf import pdf
 
-        made = {}
+        made: dict[str, bytes] = {}
         design = build.design
         block, tolerances = TitleBlock(design.name, design.table(DrawingTable)), design.table(TolerancesTable)
         for part in parts:
             sheet = plate_sheet(PlateDrawing(part, tolerances), block)
-            title = f"{design.name}: {part.name}"
-            for suffix, content in zip(SUFFIXES, (dxf(sheet), pdf(sheet, title)), strict=True):
-                made[part.name + suffix] = content
+            first, second = (part.name + suffix for suffix in SUFFIXES)
+            made |= files(sheet, (first, second), f"{design.name}: {part.name}", block)
         return made

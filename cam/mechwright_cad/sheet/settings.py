@@ -5,11 +5,14 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from mechwright.contracts.inputs import InputFile
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines
+from mechwright.errors import DesignError
+from mechwright_cad.sheet.fonts import embedded, is_plain, usual
 
 Words = Annotated[str, Field(max_length=60, pattern=r"^[^\x00-\x1f\x7f]*$")]
 Short = Annotated[str, Field(max_length=24, pattern=r"^[^\x00-\x1f\x7f]*$")]
@@ -25,6 +28,11 @@ class DrawingSettings(Parameters):
     date: Short = Field("", description="Date of issue, such as 2026-11-30.")
     author: Short = Field("", description="Who drew it.")
     approved: Short = Field("", description="Who approved it.")
+    font: InputFile = Field(
+        InputFile(),
+        description="TrueType font, a .ttf beside the design file, for letters that Helvetica has not. "
+        "Default: DejaVu Sans, where Matplotlib is installed.",
+    )
     projection: Literal["first", "third"] = Field(
         "first", description="Angle of the projection: first (ISO) or third (America)."
     )
@@ -38,7 +46,14 @@ class DrawingTable(Table[DrawingSettings]):
 
     def read(self, content: object, path: Path) -> DrawingSettings:
         """The settings; the defaults where the file has no table."""
-        return read_table(DrawingSettings, content, str(path), self.name)
+        found = read_table(DrawingSettings, content, str(path), self.name, path)
+        for key, text in found:
+            if isinstance(text, str) and not is_plain(text):
+                try:
+                    embedded(found.font.data or usual(), [text], found.font.name or "the font at hand")
+                except DesignError as error:
+                    raise DesignError(f"{path}: drawing.{key}: {error}") from error
+        return found
 
     def schema(self) -> dict[str, Any]:
         """Of the settings."""

@@ -1,9 +1,12 @@
-"""A sheet as PDF 1.4: lines, filled areas and text in Helvetica, which every reader has.
+"""A sheet as PDF 1.4: lines, filled areas and text in Helvetica, or in a font that the file brings along.
 
-Nothing in it depends on the day, the machine or its fonts: the same sheet gives the same bytes, and its text
+Nothing in it depends on the day or the machine: the same sheet gives the same bytes, and its text
 can be selected.
 """
 
+from collections.abc import Iterable, Iterator
+
+from mechwright_cad.sheet.fonts import ENCODING, Embedded, embedded, is_plain, usual
 from mechwright_cad.sheet.sheet import (
     DASHES,
     HIDDEN,
@@ -16,6 +19,7 @@ from mechwright_cad.sheet.sheet import (
     Sheet,
     Stroke,
     Text,
+    width_of,
 )
 
 _POINT = 72 / 25.4
@@ -25,35 +29,84 @@ _POINT = 72 / 25.4
 _DASHED: dict[Layer, tuple[float, ...]] = {"CENTRE": DASHES, "HIDDEN": HIDDEN}
 
 
-def pdf(sheet: Sheet, title: str = "") -> bytes:
-    """The whole file."""
+def pdf(sheet: Sheet, title: str = "", font: bytes = b"") -> bytes:
+    """The whole file; texts with letters that Helvetica has not are written in the TrueType ``font``."""
+    other = [text.text for text in _texts(sheet.items) if not is_plain(text.text)]
+    own = embedded(font or usual(), other, "drawing.font") if other else None
     content = "\n".join(
-        [f"{_POINT:.6f} 0 0 {_POINT:.6f} 0 0 cm 1 J 1 j", *(_drawn(item) for item in sheet.items)]
-    ).encode("cp1252", "replace")
+        [f"{_POINT:.6f} 0 0 {_POINT:.6f} 0 0 cm 1 J 1 j", *(_drawn(item, own) for item in sheet.items)]
+    ).encode(ENCODING)
     box = f"0 0 {sheet.width * _POINT:.2f} {sheet.height * _POINT:.2f}"
+    fonts = "/F 5 0 R" + (" /G 7 0 R" if own is not None else "")
     objects = [
         b"<< /Type /Catalog /Pages 2 0 R >>",
         b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
         f"<< /Type /Page /Parent 2 0 R /MediaBox [{box}] /Contents 4 0 R "
-        "/Resources << /Font << /F 5 0 R >> >> >>".encode(),
-        b"<< /Length %d >>\nstream\n%s\nendstream" % (len(content), content),
+        f"/Resources << /Font << {fonts} >> >> >>".encode(),
+        _stream(content),
         b"<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>",
-        f"<< /Title ({_escaped(title)}) /Producer (Mechwright) >>".encode("cp1252", "replace"),
+        f"<< /Title {_title(title)} /Producer (Mechwright) >>".encode(ENCODING),
+        *(_font(own) if own is not None else ()),
     ]
     found, places = b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n", []
     for number, body in enumerate(objects, start=1):
         places.append(len(found))
         found += b"%d 0 obj\n%s\nendobj\n" % (number, body)
     table = "".join(f"{place:010} 00000 n \n" for place in places)
-    start = len(found)
+    start, count = len(found), len(objects) + 1
     end = (
-        f"xref\n0 {len(objects) + 1}\n0000000000 65535 f \n{table}"
-        f"trailer\n<< /Size {len(objects) + 1} /Root 1 0 R /Info 6 0 R >>\nstartxref\n{start}\n%%EOF\n"
+        f"xref\n0 {count}\n0000000000 65535 f \n{table}"
+        f"trailer\n<< /Size {count} /Root 1 0 R /Info 6 0 R >>\nstartxref\n{start}\n%%EOF\n"
     )
     return found + end.encode()
 
 
-def _drawn(item: Item) -> str:
+def _stream(content: bytes, more: str = "") -> bytes:
+    return b"<< /Length %d%s >>\nstream\n%s\nendstream" % (len(content), more.encode(), content)
+
+
+def _title(text: str) -> str:
+    if is_plain(text):
+        return f"({_escaped(text)})"
+    return "<FEFF" + text.encode("utf-16-be").hex().upper() + ">"
+
+
+def _font(own: Embedded) -> list[bytes]:
+    """A font whose codes are the numbers of its glyphs, with their letters, so that text can be searched."""
+    ordered = sorted((number, wide, letter) for letter, (number, wide) in own.glyphs.items())
+    widths = " ".join(f"{number} [{wide}]" for number, wide, _ in ordered)
+    meant = "\n".join(
+        f"<{number:04X}> <{letter.encode('utf-16-be').hex().upper()}>" for number, _, letter in ordered
+    )
+    told = (
+        "/CIDInit /ProcSet findresource begin 12 dict begin begincmap /CMapName /Own def /CMapType 2 def\n"
+        f"1 begincodespacerange <0000> <FFFF> endcodespacerange\n{len(ordered)} beginbfchar\n{meant}\n"
+        "endbfchar endcmap CMapName currentdict /CMap defineresource pop end end"
+    )
+    box = " ".join(map(str, own.box))
+    return [
+        b"<< /Type /Font /Subtype /Type0 /BaseFont /AAAAAA+Own /Encoding /Identity-H "
+        b"/DescendantFonts [8 0 R] /ToUnicode 11 0 R >>",
+        f"<< /Type /Font /Subtype /CIDFontType2 /BaseFont /AAAAAA+Own /CIDToGIDMap /Identity /W [{widths}] "
+        "/CIDSystemInfo << /Registry (Adobe) /Ordering (Identity) /Supplement 0 >> "
+        "/FontDescriptor 9 0 R >>".encode(),
+        f"<< /Type /FontDescriptor /FontName /AAAAAA+Own /Flags 4 /FontBBox [{box}] /ItalicAngle 0 "
+        f"/Ascent {own.ascent} /Descent {own.descent} /CapHeight {own.ascent} /StemV 80 "
+        "/FontFile2 10 0 R >>".encode(),
+        _stream(own.file, f" /Length1 {len(own.file)}"),
+        _stream(told.encode()),
+    ]
+
+
+def _texts(items: Iterable[Item]) -> Iterator[Text]:
+    for item in items:
+        if isinstance(item, Text):
+            yield item
+        elif isinstance(item, Dimension):
+            yield from _texts(item.pieces)
+
+
+def _drawn(item: Item, own: Embedded | None) -> str:
     match item:
         case Stroke(points, layer):
             return f"{_pen(layer)} {_path(points)} S"
@@ -61,9 +114,17 @@ def _drawn(item: Item) -> str:
             return f"{_path(points)} h f"
         case Text():
             x, y = item.left
+            if own is not None and not is_plain(item.text):
+                # As wide as the sheet takes it to be, whatever the font.
+                size = item.height * SIZE
+                share = 100 * width_of(item.text, item.height) / (own.width(item.text) * size)
+                return (
+                    f"BT /G {_n(size)} Tf {_n(share)} Tz {_n(x)} {_n(y)} Td <{own.hex(item.text)}> Tj "
+                    "100 Tz ET"
+                )
             return f"BT /F {_n(item.height * SIZE)} Tf {_n(x)} {_n(y)} Td ({_escaped(item.text)}) Tj ET"
         case Dimension():
-            return "\n".join(_drawn(one) for one in item.pieces)
+            return "\n".join(_drawn(one, own) for one in item.pieces)
 
 
 def _pen(layer: Layer) -> str:

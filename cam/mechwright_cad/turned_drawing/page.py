@@ -25,17 +25,15 @@ class TurnedDrawings(Page):
         parts = [part for part in build.parts if part.kind == "turned"]
         if not parts:
             return {}
+        from mechwright_cad.sheet.files import files
         from mechwright_cad.sheet.settings import DrawingTable
         from mechwright_cad.sheet.title import TitleBlock
-        from mechwright_cad.sheet.to_dxf import dxf
-        from mechwright_cad.sheet.to_pdf import pdf
         from mechwright_cad.turned_drawing.drawing import turned_sheet
 
-        made = {}
+        made: dict[str, bytes] = {}
         block = TitleBlock(build.design.name, build.design.table(DrawingTable))
         for part in parts:
             sheet = turned_sheet(part, block)
-            title = f"{build.design.name}: {part.name}"
-            for suffix, content in zip(SUFFIXES, (dxf(sheet), pdf(sheet, title)), strict=True):
-                made[part.name + suffix] = content
+            first, second = (part.name + suffix for suffix in SUFFIXES)
+            made |= files(sheet, (first, second), f"{build.design.name}: {part.name}", block)
         return made
