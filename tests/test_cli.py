@@ -192,6 +192,8 @@ def test_a_build_is_complete_and_the_same_every_time(
             "assembly-drawing.dxf",
             "assembly-drawing.pdf",
             "gear.dxf",
+            "gear-drawing.dxf",
+            "gear-drawing.pdf",
             "gear.nc",
             "tool.tbl",
             "proof.json",

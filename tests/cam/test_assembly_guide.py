@@ -204,7 +204,7 @@ def test_the_drawing_has_the_items_and_is_sound(crank_rocker):
     assert not document.audit().errors
     words = [text.dxf.text for text in document.modelspace().query("TEXT")]
     assert {"Item", "ground", "coupler", "pin-b, pin-a"} <= set(words)
-    assert str(len(plan.bodies)) in words, "the sum of the bodies"
+    assert any(word.endswith(f", {len(plan.bodies)}") for word in words), "the sum of the bodies"
     for solid in document.modelspace().query("SOLID"):
         a, b, d, c = (
             corner.vec2 for corner in (solid.dxf.vtx0, solid.dxf.vtx1, solid.dxf.vtx2, solid.dxf.vtx3)

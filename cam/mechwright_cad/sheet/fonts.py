@@ -45,7 +45,7 @@ class Embedded:
         return "".join(f"{self.glyphs[letter][0]:04X}" for letter in text)
 
 
-def usual() -> bytes:
+def default_font() -> bytes:
     """DejaVu Sans as Matplotlib brings it along, which has Latin, Greek and Cyrillic; empty without it."""
     found = find_spec("matplotlib")
     for folder in (found.submodule_search_locations if found else None) or ():

@@ -12,7 +12,7 @@ from mechwright.contracts.table import Table
 from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
-from mechwright_cad.sheet.fonts import embedded, is_plain, usual
+from mechwright_cad.sheet.fonts import default_font, embedded, is_plain
 
 Words = Annotated[str, Field(max_length=60, pattern=r"^[^\x00-\x1f\x7f]*$")]
 Short = Annotated[str, Field(max_length=24, pattern=r"^[^\x00-\x1f\x7f]*$")]
@@ -50,7 +50,7 @@ class DrawingTable(Table[DrawingSettings]):
         for key, text in found:
             if isinstance(text, str) and not is_plain(text):
                 try:
-                    embedded(found.font.data or usual(), [text], found.font.name or "the font at hand")
+                    embedded(found.font.data or default_font(), [text], found.font.name or "the font at hand")
                 except DesignError as error:
                     raise DesignError(f"{path}: drawing.{key}: {error}") from error
         return found

@@ -6,7 +6,7 @@ can be selected.
 
 from collections.abc import Iterable, Iterator
 
-from mechwright_cad.sheet.fonts import ENCODING, Embedded, embedded, is_plain, usual
+from mechwright_cad.sheet.fonts import ENCODING, Embedded, default_font, embedded, is_plain
 from mechwright_cad.sheet.sheet import (
     DASHES,
     HIDDEN,
@@ -32,7 +32,7 @@ _DASHED: dict[Layer, tuple[float, ...]] = {"CENTRE": DASHES, "HIDDEN": HIDDEN}
 def pdf(sheet: Sheet, title: str = "", font: bytes = b"") -> bytes:
     """The whole file; texts with letters that Helvetica has not are written in the TrueType ``font``."""
     other = [text.text for text in _texts(sheet.items) if not is_plain(text.text)]
-    own = embedded(font or usual(), other, "drawing.font") if other else None
+    own = embedded(font or default_font(), other, "drawing.font") if other else None
     content = "\n".join(
         [f"{_POINT:.6f} 0 0 {_POINT:.6f} 0 0 cm 1 J 1 j", *(_drawn(item, own) for item in sheet.items)]
     ).encode(ENCODING)
