@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import shapely
 
+from mechwright.contracts.datum import datum_bore, length_zone
 from mechwright.contracts.part import Part
 from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.errors import GeometryError
@@ -60,23 +61,18 @@ class PlateDrawing:
     def datum(self) -> Point:
         """From where holes and corners are measured, mm.
 
-        It is the hole on the part's own axis, else the largest one with a fit, else the largest one, else the
-        lower left corner of what it takes.
+        It is that hole of the part, else the lower left corner of what it takes.
         """
-        holes = [hole for kind in kinds(self.part, (0.0, 0.0)) for hole in kind.holes]
-        for hole in holes:
-            if math.hypot(*hole.centre) < 1e-6:
-                return hole.centre
-        if holes:
-            return max(holes, key=lambda hole: (hole.fitted, hole.radius, -math.hypot(*hole.centre))).centre
+        found = datum_bore(self.part)
+        if found is not None:
+            return found.centre
         x0, y0, _, _ = bounds(self.part)
         return x0, y0
 
-    def zone(self, hole: Hole) -> float:
-        """Diameter of the zone in which the axis of a fitted hole has to lie, mm."""
-        far = math.dist(hole.centre, self.datum)
-        contributor = self.tolerances.length(self.part.name, far)
-        return round(contributor.upper - contributor.lower, 3)
+    def zone(self, hole: Hole) -> float | None:
+        """Diameter of the zone in which the axis of a fitted hole lies, mm; None where none is known."""
+        found = length_zone(self.part, math.dist(hole.centre, self.datum), self.tolerances)
+        return None if found is None else round(found[1] - found[0], 3)
 
 
 def hole_rows(kinds: tuple[Kind, ...], origin: Point) -> list[Row]:
@@ -192,11 +188,14 @@ def _frames(told: PlateDrawing, found: tuple[Kind, ...]) -> list[tuple[str, Symb
     rows: dict[tuple[Symbol, float, str], list[str]] = {}
     for kind in found:
         for name, hole in named(kind) if kind.holes[0].fitted else ():
+            zone = told.zone(hole)
+            if zone is None:
+                continue
             symbol: Symbol = "position"
             datums = "AB" if base is not None else "A"
             if base is not None and hole.centre == base.centre:
                 symbol, datums = "perpendicularity", "A"
-            rows.setdefault((symbol, told.zone(hole), datums), []).append(name)
+            rows.setdefault((symbol, zone, datums), []).append(name)
     return [(_list(names), *key) for key, names in rows.items()]
 
 

@@ -1,11 +1,13 @@
 """The table ``[tolerances]`` of a design file, with the tables ``[tolerances.of.NAME]``."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from mechwright.contracts.model_schema import model_schema
+from mechwright.contracts.part import Part
 from mechwright.contracts.table import Table
 from mechwright.contracts.tolerance_settings import OwnTolerance, Tolerances, ToleranceSettings
 from mechwright.designs.tables import read_table
@@ -43,6 +45,15 @@ class TolerancesTable(Table[Tolerances]):
                 for name, table in own.items()
             },
         )
+
+    def parts(self, value: Tolerances, parts: Sequence[Part], path: Path) -> Sequence[Part]:  # noqa: ARG002
+        """The parts with their lengths between holes, which have these tolerances, to be measured."""
+        from mechwright.contracts.datum import over_pins
+
+        return [
+            replace(part, measures=(*part.measures, *found)) if (found := over_pins(part, value)) else part
+            for part in parts
+        ]
 
     def schema(self) -> dict[str, Any]:
         """The settings, and the tables of single contributors."""
