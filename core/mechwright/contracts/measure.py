@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from mechwright.errors import GeometryError
+from mechwright.tolerances import TOLERANCES
 
 
 @dataclass(frozen=True)
@@ -39,3 +40,18 @@ class Measure:
             raise GeometryError(
                 f"measure {self.what!r}: {self.nominal:g} mm is not within {least:g} to {greatest:g} mm"
             )
+
+
+def between_walls(what: str, nominal: float, walls: int) -> Measure:
+    """A size between milled walls, within what the proof of a program lets pass.
+
+    ``walls`` counts those of which stock that is left makes the size larger; negative, smaller.
+
+    >>> found = between_walls("width of the slot", 12.08, -2)
+    >>> found.least, found.greatest
+    (12.06, 12.09)
+    """
+    deep, left = TOLERANCES.gouge * abs(walls), TOLERANCES.leftover * abs(walls)
+    below, above = (deep, left) if walls > 0 else (left, deep)
+    nominal = round(nominal, 4)
+    return Measure(what, nominal, round(nominal - below, 4), round(nominal + above, 4), "walls as proven")

@@ -47,6 +47,7 @@ from mechwright_cam_follower.parts.follower_dimensions import (
     slide_sides,
     studs_of,
 )
+from mechwright_cam_follower.parts.gauging import edge_measures
 
 STEEL, BRONZE, BLUE, GREY = (0.68, 0.70, 0.74), (0.80, 0.62, 0.35), (0.42, 0.55, 0.72), (0.55, 0.56, 0.58)
 
@@ -106,6 +107,7 @@ def _cam(m: Mechanism, cam: int) -> Part:
         BRONZE,
         tuple(features),
         marks=marks,
+        measures=edge_measures(outer),
     )
 
 

@@ -31,6 +31,7 @@ from mechwright import (
     kept,
 )
 from mechwright.contracts.fits import shaft_fit
+from mechwright.contracts.measure import between_walls
 from mechwright.geometry.keyway import Opening
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.kinematics.geometry import LEFT, RIGHT
@@ -139,12 +140,18 @@ def _wheel(m: Mechanism) -> list[Part]:
         ]
         grooves += counterbore(m, depth)
         made.append(
-            _plate(m, "wheel", wheel.disc(), deviation, opening, dowels, depth, WHEEL, 0, BRONZE, grooves)
+            _measured(
+                m,
+                _plate(
+                    m, "wheel", wheel.disc(), deviation, opening, dowels, depth, WHEEL, 0, BRONZE, grooves
+                ),
+            )
         )
     elif m.params.slots_made == "through":
         loop, deviation = wheel.slotted()
         recess = counterbore(m, depth)
-        made.append(_plate(m, "wheel", loop, deviation, opening, dowels, depth, WHEEL, 0, BRONZE, recess))
+        plate = _plate(m, "wheel", loop, deviation, opening, dowels, depth, WHEEL, 0, BRONZE, recess)
+        made.append(_measured(m, plate))
     else:
         made += _backed(m, wheel, opening, dowels)
     if params.hub_diameter > 0:
@@ -153,6 +160,15 @@ def _wheel(m: Mechanism) -> list[Part]:
             _plate(m, "hub", hub, 0.0, opening, dowels, params.hub_height, WHEEL, -params.hub_height, GREY)
         )
     return made
+
+
+def _measured(m: Mechanism, wheel: Part) -> Part:
+    """A wheel with the sizes that make it run and lock."""
+    own = (
+        between_walls("width of a slot", 2 * m.groove, -2),
+        between_walls("axis to the bottom of a locking arc", m.axes - m.arc, 1),
+    )
+    return replace(wheel, measures=(*wheel.measures, *own))
 
 
 def _backed(m: Mechanism, wheel: Wheel, opening: Loop | None, dowels: list[Point]) -> list[Part]:
@@ -199,6 +215,7 @@ def _driver(m: Mechanism) -> list[Part]:
     disc = _plate(
         m, "locking-disc", loop, deviation, opening, dowels, thick, DRIVER, top - thick, STEEL, within=deep
     )
+    disc = replace(disc, measures=(*disc.measures, between_walls("axis to the locking edge", m.lock, 1)))
     fit, thickness = pin_fit(m, params.pin_diameter), params.crank_thickness
     bores = [
         Bore(f"pin-{k}", (pin.real, pin.imag), pin_bore(m), 0, thickness, fit)
