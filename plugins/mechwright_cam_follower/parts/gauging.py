@@ -2,18 +2,15 @@
 
 import math
 
-import shapely
+import numpy as np
 
-from mechwright import TOLERANCES, Loop
+from mechwright import TOLERANCES, Array, Loop
 from mechwright.contracts.measure import Measure
 
 STEP = 30
 """Degrees from one size to the next."""
 
-_LONG = 1e4
-"""Length of a ray, mm."""
-
-_TURN = 1e-5
+_TURN = 1e-3
 """Half the turn over which the slope of the edge is taken, rad."""
 
 
@@ -23,7 +20,8 @@ def edge_measures(outside: Loop) -> tuple[Measure, ...]:
     A wall that is t too high across itself is t/cos(ψ) too far from the axis, where the edge leans by ψ from
     a circle about it: tan(ψ) = r'/r.
     """
-    edge = shapely.LinearRing(outside.flatten(TOLERANCES.closure))
+    points = outside.flatten(TOLERANCES.flatten / 10)
+    edge = np.vstack((points, points[:1]))
     found = []
     for angle in range(0, 360, STEP):
         turn = math.radians(angle)
@@ -42,8 +40,13 @@ def edge_measures(outside: Loop) -> tuple[Measure, ...]:
     return tuple(found)
 
 
-def _radius(edge: shapely.LinearRing, angle: float) -> float:
+def _radius(edge: Array, angle: float) -> float:
     """Distance of the edge along a ray from the origin, mm: the farthest place that it meets."""
-    ray = shapely.LineString([(0.0, 0.0), (_LONG * math.cos(angle), _LONG * math.sin(angle))])
-    met = shapely.get_coordinates(shapely.intersection(edge, ray))
-    return float(max(math.hypot(x, y) for x, y in met))
+    along, across = (
+        np.array([math.cos(angle), math.sin(angle)]),
+        np.array([-math.sin(angle), math.cos(angle)]),
+    )
+    out, beside = edge @ along, edge @ across
+    met = np.flatnonzero((beside[:-1] <= 0) != (beside[1:] <= 0))
+    share = beside[met] / (beside[met] - beside[met + 1])
+    return float((out[met] + share * (out[met + 1] - out[met])).max())
