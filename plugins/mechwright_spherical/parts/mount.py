@@ -80,6 +80,16 @@ class Hub:
         """Of the hub, mm, at least."""
         return self.outside + 2 * WALL
 
+    def free_bore(self, params: SphericalParams) -> float:
+        """How much of the longest bore that its bushes share they leave free, mm."""
+        low, high = self.span
+        inside = [bush.length for bush, at in self.bushes if low <= at < high]
+        others = [one for one in self.bushes if not low <= one[1] < high]
+        shells = shells_of(params)
+        beside = shells.links["ground-2" if motor_opposite(params) else "ground"]
+        rooms = [beside[1] - beside[0] - bush.length for bush, _ in others]
+        return max(high - low - sum(inside), *rooms, 0.0)
+
     @property
     def seat(self) -> float:
         """Radius at which the ring begins, mm."""
