@@ -15,6 +15,7 @@ from mechwright_cad.exporters import (
     StlExporter,
     ThreeMfExporter,
 )
+from mechwright_cad.form_drawing.page import FormDrawings
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
 from mechwright_cad.results import Assembled, PartPicture, PartSolid
 from mechwright_cad.turned_drawing.page import TurnedDrawings
@@ -35,6 +36,7 @@ def mechwright_register() -> list[type[Plugin]]:
         BillOfMaterials,
         SoldPlates,
         TurnedDrawings,
+        FormDrawings,
         AssemblyGuide,
         Interference,
         ScrewLengths,

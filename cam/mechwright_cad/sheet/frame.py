@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from mechwright_cad.sheet.circles import ring
 from mechwright_cad.sheet.sheet import HEIGHT, Sheet, Text
 
 SHEETS = ((297.0, 210.0), (420.0, 297.0), (594.0, 420.0), (841.0, 594.0))
@@ -47,3 +48,14 @@ def frame(sheet: Sheet, rows: Sequence[Row], notes: Sequence[str]) -> None:
             sheet.add(Text((x + 2, y + 2), value, height=HEIGHT))
     for k, line in enumerate(notes):
         sheet.add(Text((MARGIN + EDGE, top - LINE * (k + 1)), line, height=2.5))
+
+
+def first_angle(sheet: Sheet) -> None:
+    """The sign of ISO 5456-2 in the title block: a cone from the side, and to its right its end."""
+    x, y = sheet.width - MARGIN - 22.0, MARGIN + 5 * TITLE[1] / 6
+    sheet.lines([(x, y - 1.5), (x + 7, y - 3), (x + 7, y + 3), (x, y + 1.5), (x, y - 1.5)], "DIM")
+    sheet.lines([(x - 1.5, y), (x + 8.5, y)], "CENTRE")
+    for radius in (1.5, 3.0):
+        sheet.lines(ring((x + 14, y), radius), "DIM")
+    sheet.lines([(x + 10, y), (x + 18, y)], "CENTRE")
+    sheet.lines([(x + 14, y - 4), (x + 14, y + 4)], "CENTRE")

@@ -63,7 +63,7 @@ def _drawn(item: Item) -> str:
 
 
 def _pen(layer: Layer) -> str:
-    dashes = " ".join(_n(one) for one in DASHES) if layer == "CENTRE" else ""
+    dashes = " ".join(_n(one) for one in DASHES.get(layer, ()))
     return f"{_n(WIDTH[layer])} w [{dashes}] 0 d"
 
 

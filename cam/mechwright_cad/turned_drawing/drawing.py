@@ -6,7 +6,8 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.turned import KeySeat, Length, Turned
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
-from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame, ratio
+from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, first_angle, frame, ratio
+from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import Sheet, Text, width_of
 from mechwright_cad.turned_drawing import words
 from mechwright_cad.turned_drawing.dimensions import (
@@ -19,13 +20,7 @@ from mechwright_cad.turned_drawing.dimensions import (
     rows_height,
     upright,
 )
-from mechwright_cad.turned_drawing.view import OVERHANG, across, ring, side
-
-SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-"""ISO 5455."""
-
-LEAST = 0.5
-"""A smaller scale than this is taken only where the largest sheet wants it."""
+from mechwright_cad.turned_drawing.view import OVERHANG, across, side
 
 
 @dataclass(frozen=True)
@@ -209,15 +204,4 @@ def _frame(sheet: Sheet, part: Part, turned: Turned, design: str) -> None:
         (("Material", part.material), ("Make", f"{max(1, len(part.instances))}")),
     )
     frame(sheet, rows, words.notes(turned))
-    _first_angle(sheet, (sheet.width - MARGIN - 22.0, MARGIN + 5 * TITLE[1] / 6))
-
-
-def _first_angle(sheet: Sheet, at: Point) -> None:
-    """The sign of ISO 5456-2: a cone from the side, and to its right its end."""
-    x, y = at
-    sheet.lines([(x, y - 1.5), (x + 7, y - 3), (x + 7, y + 3), (x, y + 1.5), (x, y - 1.5)], "DIM")
-    sheet.lines([(x - 1.5, y), (x + 8.5, y)], "CENTRE")
-    for radius in (1.5, 3.0):
-        sheet.lines(ring((x + 14, y), radius), "DIM")
-    sheet.lines([(x + 10, y), (x + 18, y)], "CENTRE")
-    sheet.lines([(x + 14, y - 4), (x + 14, y + 4)], "CENTRE")
+    first_angle(sheet)

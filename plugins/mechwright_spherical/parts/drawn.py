@@ -51,7 +51,8 @@ def free_form(
         return FreeForm(body, CUT, bores, tuple(_cone(cones[name][1], span)), centre=True)
     own = name.removesuffix("-n")
     sizes = [*_arc_sizes(params, own, bores)]
-    notes: list[str] = []
+    # Axes that miss the centre by more than the play of the pins make the linkage bind.
+    notes = [f"Axes of the bores for pins pass the centre within {params.hardware.fit:g}"]
     if own == "ground":
         sizes += _stand_sizes(params)
     if own == "coupler":
@@ -115,7 +116,7 @@ def _stand_sizes(params: SphericalParams) -> Iterator[FormSize]:
     yield LengthSize((way * low, -half, -half), (way * low, half, -half))
     yield LengthSize((way * (low + FLANGE), 0.0, -half), (way * (low + FLANGE), 0.0, half))
     yield LengthSize((way * low, half, half), (way * (low + FLANGE), half, half))
-    yield LengthSize(CENTRE, (way * low, half, half))
+    yield LengthSize((0.0, half, half), (way * low, half, half))
 
 
 def _slots(params: SphericalParams) -> Iterator[str]:
