@@ -12,7 +12,7 @@ resting
     A unit that is not held rests if others carry it: it cannot sink, and its centre of volume stands over the
     area that it touches, or others stop it on all sides.
 falling
-    A unit that is neither held nor rests: a fitter has to hold it by hand.
+    A unit that neither is held nor rests, not even on one that a hand holds: a fitter has to hold it by hand.
 """
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -32,6 +32,9 @@ Unit = frozenset[int]
 Way = tuple[float, float, float]
 
 UPRIGHT: tuple[Way, ...] = ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0))
+
+LEVEL_WAYS: tuple[Way, ...] = ((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0))
+"""Ways that look to the floor where an assembly lies on its side: it does if a fitter has two hands full else."""
 
 STRAIGHT = 0.999
 """Greatest coordinate of a way from which on an assembly is turned to have it downwards."""
@@ -90,16 +93,43 @@ class Holding:
             others = [unit for unit in sorted(set(units.values()), key=min) if unit != ground]
             lying = [unit for unit in others if self._carries(unit, there, ground, way)]
             bearing = frozenset((ground, *lying))
-            self._falling[key] = tuple(
+            falls = [
                 unit for unit in others if unit not in bearing and not self._rests(unit, units, bearing, way)
-            )
+            ]
+            self._falling[key] = tuple(sorted(self._by_hand(falls, units, bearing, way), key=min))
         return self._falling[key]
+
+    def _by_hand(
+        self, falls: Sequence[Unit], units: Mapping[int, Unit], bearing: frozenset[Unit], down: Array
+    ) -> Iterator[Unit]:
+        """Of units that fall those to hold, so that the others rest on them: each as good as the next."""
+        left = list(falls)
+        while left:
+            tried = {unit: self._left(left, unit, units, bearing, down) for unit in left}
+            best = min(left, key=lambda unit: (len(tried[unit]), min(unit)))
+            yield best
+            left, bearing = tried[best], bearing | {best}
+
+    def _left(
+        self,
+        falls: Sequence[Unit],
+        held: Unit,
+        units: Mapping[int, Unit],
+        bearing: frozenset[Unit],
+        down: Array,
+    ) -> list[Unit]:
+        """Units that fall though a hand holds one of them."""
+        if len(falls) == 1:
+            return []
+        bearing = bearing | {held}
+        return [unit for unit in falls if unit != held and not self._rests(unit, units, bearing, down)]
 
     def down(self, there: frozenset[int], root: int, down: Way, way: Way) -> tuple[Way, tuple[Unit, ...]]:
         """Which way is down for a step along ``way``, and what falls then.
 
         The assembly stays as it lies if nothing falls. Else it is turned so that what comes goes downwards if
-        no more falls then, or upright if nothing does. What falls is held by hand.
+        no more falls then, or upright if nothing does. If more than one unit falls it is laid on the side on
+        which nothing does. What falls is held by hand.
         """
         straight = max(abs(x) for x in way) > STRAIGHT
         falling = self.falling(there, root, down)
@@ -110,6 +140,9 @@ class Holding:
             upright = tried == way and abs(way[2]) > STRAIGHT
             if not found or (upright and len(found) <= len(falling)):
                 return tried, found
+        for tried in LEVEL_WAYS if len(falling) > 1 else ():
+            if not self.falling(there, root, tried):
+                return tried, ()
         return down, falling
 
     def unretained(self, there: frozenset[int], root: int) -> list[Unit]:

@@ -24,18 +24,20 @@ from mechwright_spherical.parts.mount import (
     AIR,
     FAR,
     hubs_of,
+    idler_ring,
     shaft_form,
     shaft_start,
     spacer_form,
     spacer_room,
+    stud_form,
 )
-from mechwright_spherical.parts.places import link_arcs, path_point, pin_places
+from mechwright_spherical.parts.places import in_ground, link_arcs, path_point, pin_places
 
 BRIGHT, BRONZE = (0.82, 0.82, 0.84), (0.76, 0.58, 0.30)
 
 
 def axis_parts(params: SphericalParams) -> Iterator[Part]:
-    """Shafts with rings, bushes and spacers; none without a flange."""
+    """Shafts with rings, bushes and spacers of a ground with a flange; and the idler's stud."""
     shells, steel = shells_of(params), params.hardware.pin_material
     for name, hub in hubs_of(params).items():
         axle, shaft = f"axle-{name}", shaft_form(params, shells, name)
@@ -53,6 +55,14 @@ def axis_parts(params: SphericalParams) -> Iterator[Part]:
         if spacer is not None:
             at = (Instance(axle, spacer_room(params, name)[0] + AIR / 2),)
             yield Part(f"spacer-{name}", None, 0.0, "brass", at, BRONZE, turned=spacer, play=AIR / 2)
+    train = train_of(linkage_of(params), params.drive)
+    if train is not None and train.idler_axis is not None:
+        form, at = stud_form(params, shells, train), (Instance("shaft-idler", shells.pins["idler"][0]),)
+        yield Part("shaft-idler", None, 0.0, steel, at, BRIGHT, turned=form)
+        held = idler_ring(params, shells, train)
+        if held is not None:
+            at = (Instance("shaft-idler", held[1]),)
+            yield Part("circlip-idler", None, 0.0, "steel", at, BRIGHT, bought=held[0].bought)
 
 
 def axis_frames(params: SphericalParams) -> dict[str, tuple[str, Array]]:
@@ -82,10 +92,8 @@ def pin_frames(params: SphericalParams) -> dict[str, tuple[str, Array]]:
         if shown and not (flange and name.startswith("shaft-")):
             found[name] = (body, _along(angle))
     if train is not None and train.idler_axis is not None:
-        found["shaft-idler"] = ("idler", _along(0.0))
-    z = path_point(linkage, pins_of_phase(linkage, 1))
-    x = perpendicular(z)
-    found["tool"] = ("coupler", np.stack([x, np.cross(z, x), z], axis=1))
+        found["shaft-idler"] = ("ground", _frame(in_ground(linkage, train.idler_axis)))
+    found["tool"] = ("coupler", _frame(path_point(linkage, pins_of_phase(linkage, 1))))
     return found
 
 
@@ -103,6 +111,12 @@ def axis_joints(params: SphericalParams) -> dict[str, Joint]:
     for name, (body, _) in (axis_frames(params) | pin_frames(params)).items():
         found |= fixed(body, name)
     return found
+
+
+def _frame(z: Array) -> Array:
+    """A rotation with that z, a unit vector."""
+    x = perpendicular(z)
+    return np.stack([x, np.cross(z, x), z], axis=1)
 
 
 def _along(angle: float) -> Array:

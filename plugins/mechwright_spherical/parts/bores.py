@@ -10,14 +10,13 @@ import numpy as np
 from mechwright import Array
 from mechwright.contracts.free_form import FormBore
 from mechwright_spherical.kinematics.bodies import pins_of_phase
-from mechwright_spherical.kinematics.chain import orientation
 from mechwright_spherical.kinematics.drive import Train
 from mechwright_spherical.kinematics.linkage import Linkage
 from mechwright_spherical.kinematics.vectors import arc, direction
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import frame_of, motor_opposite
-from mechwright_spherical.parts.mount import HOLE, bracket_of, flange_level, hubs_of
-from mechwright_spherical.parts.places import coupler_seats, gear_span, path_point
+from mechwright_spherical.parts.mount import HOLE, bracket_of, flange_level, gear_ends, hubs_of
+from mechwright_spherical.parts.places import coupler_seats, in_ground, path_point
 from mechwright_spherical.parts.seats import slotted_of
 from mechwright_spherical.parts.shells import FLANGE, Shells, Span
 from mechwright_spherical.parts.stand import FLANGE_SCREWS, post_direction
@@ -83,12 +82,6 @@ def ground_bores(
     yield from post_bores(params, shells)
 
 
-def in_ground(linkage: Linkage, axis: Array) -> Array:
-    """A direction in space, in the ground's frame."""
-    loop = linkage.shown.loop
-    return np.asarray(orientation(loop.a0, loop.b0).T @ axis)
-
-
 def flange_bores(params: SphericalParams) -> Iterator[FormBore]:
     """The four screw holes of the motor's flange."""
     half, low = (params.stand.motor_flange or 0.0) / 2, flange_level(params)
@@ -109,7 +102,6 @@ def post_bores(params: SphericalParams, shells: Shells) -> Iterator[FormBore]:
         yield FormBore(f"post-{number}", tuple(start.tolist()), tuple(post.tolist()), deep, stand.screw)
 
 
-def gear_bore(params: SphericalParams, shells: Shells, train: Train, half_angle: float) -> FormBore:
-    """That of a gear blank for its shaft, through all of the cone."""
-    low, high = (end * float(np.cos(half_angle)) for end in gear_span(params, shells, train))
-    return pin_bore(params, "shaft", X, (low, high))
+def gear_bore(params: SphericalParams, shells: Shells, train: Train, name: str) -> FormBore:
+    """That of a gear blank for its shaft, through the cone and its hub."""
+    return pin_bore(params, "shaft", X, gear_ends(params, shells, train, name))

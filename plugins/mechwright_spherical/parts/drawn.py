@@ -21,7 +21,7 @@ from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.vectors import arc, direction
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import ground_beyond, motor_opposite, shells_of
-from mechwright_spherical.parts.mount import EDGE, flange_level
+from mechwright_spherical.parts.mount import EDGE, flange_level, gear_ends
 from mechwright_spherical.parts.places import gear_cones, gear_span
 from mechwright_spherical.parts.seats import clamp_of, seats_of, slot_width, slotted_of
 from mechwright_spherical.parts.shells import FLANGE, Span
@@ -47,8 +47,9 @@ def free_form(
     train = train_of(linkage_of(params), params.drive)
     cones = {} if train is None else gear_cones(train)
     if name in cones and train is not None:
-        span = gear_span(params, shells_of(params), train)
-        return FreeForm(body, CUT, bores, tuple(_cone(cones[name][1], span)), centre=True)
+        shells = shells_of(params)
+        sizes = _cone(cones[name][1], gear_span(params, shells, train), gear_ends(params, shells, train, name))
+        return FreeForm(body, CUT, bores, tuple(sizes), centre=True)
     own = name.removesuffix("-n")
     sizes = [*_arc_sizes(params, own, bores)]
     # Axes that miss the centre by more than the play of the pins make the linkage bind.
@@ -131,10 +132,12 @@ def _slots(params: SphericalParams) -> Iterator[str]:
         yield "Lines of the scales cut into the inner face"
 
 
-def _cone(half_angle: float, span: Span) -> Iterator[FormSize]:
-    """Angle of the pitch cone from its axis, and its ends along the axis."""
+def _cone(half_angle: float, span: Span, ends: Span) -> Iterator[FormSize]:
+    """Angle of the pitch cone from its axis, its ends along the axis, and its greatest diameter."""
     low, high = (end * math.cos(half_angle) for end in span)
     yield AngleSize(CENTRE, X, _tuple(direction(half_angle)))
     yield LengthSize((low, 0.0, 0.0), (high, 0.0, 0.0))
+    if ends != (low, high):
+        yield LengthSize((ends[0], 0.0, 0.0), (ends[1], 0.0, 0.0))
     radius = high * math.tan(half_angle)
     yield LengthSize((high, 0.0, -radius), (high, 0.0, radius), diameter=True)

@@ -15,13 +15,14 @@ from mechwright_spherical.kinematics.drive import Train, train_of
 from mechwright_spherical.kinematics.linkage import Linkage, linkage_of
 from mechwright_spherical.kinematics.vectors import arc, cross, direction, norm, rotate
 from mechwright_spherical.parameters import SphericalParams
-from mechwright_spherical.parts.bores import X, in_ground
+from mechwright_spherical.parts.bores import X
 from mechwright_spherical.parts.frame import frame_of, ground_beyond, motor_opposite, shells_of
-from mechwright_spherical.parts.mount import EDGE, bracket_of, flange_level, hubs_of
+from mechwright_spherical.parts.mount import EDGE, bracket_of, flange_level, gear_ends, hubs_of
 from mechwright_spherical.parts.places import (
     coupler_seats,
     gear_cones,
     gear_span,
+    in_ground,
     link_arcs,
     path_point,
     second_size,
@@ -71,8 +72,8 @@ def body(params: SphericalParams, name: str) -> cq.Solid:
         return ground(params, shells, linkage, train)
     if name == "coupler":
         return coupler(params, shells, linkage)
-    if train is not None and name in (cones := gear_cones(train)):
-        return gear(gear_span(params, shells, train), cones[name][1])
+    if train is not None and name in gear_cones(train):
+        return gear(params, shells, train, name)
     own = name.removesuffix("-n")
     arcs = link_arcs(linkage) if own == name else second_size(linkage, shells)
     return link(params, shells, own, arcs[own])
@@ -213,6 +214,12 @@ def motor_flange(params: SphericalParams) -> cq.Solid:
     return found
 
 
-def gear(span: Span, half_angle: float) -> cq.Solid:
-    """A gear blank: the pitch cone."""
-    return fused([frustum(X, half_angle, span, PITCH_PLAY)])
+def gear(params: SphericalParams, shells: Shells, train: Train, name: str) -> cq.Solid:
+    """A gear blank: the pitch cone, and its hub to what is beside it."""
+    half, span = gear_cones(train)[name][1], gear_span(params, shells, train)
+    cone = frustum(X, half, span, PITCH_PLAY)
+    ends, own = gear_ends(params, shells, train, name), [end * math.cos(half) for end in span]
+    rest = (ends[0], own[0]) if ends[0] < own[0] else (own[1], ends[1])
+    if not rest[0] < rest[1]:
+        return cone
+    return fused([cone, cylinder(X, rest, hubs_of(params)["a0"].outside)])

@@ -16,12 +16,12 @@ from mechwright.standards.bushes import Bush, bush_for, bushes
 from mechwright.standards.circlips import Circlip, shaft_circlip, shaft_circlips
 from mechwright.standards.couplings import BORES, couplings
 from mechwright.standards.screws import screw_sizes
-from mechwright_spherical.kinematics.drive import train_of
+from mechwright_spherical.kinematics.drive import Train, train_of
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import motor_opposite, shells_of
 from mechwright_spherical.parts.hardware import StandTable
-from mechwright_spherical.parts.places import gear_span
+from mechwright_spherical.parts.places import gear_cones, gear_span
 from mechwright_spherical.parts.shells import FLANGE, RISE, Shells, Span
 from mechwright_spherical.parts.stand import FLANGE_SCREWS, MOUNTING_SCREWS
 
@@ -127,18 +127,50 @@ def shaft_start(params: SphericalParams, shells: Shells, name: str) -> float:
 
 
 def spacer_room(params: SphericalParams, name: str) -> Span:
-    """Between which radii the spacer beside a hub is, mm; below 0 beyond the centre."""
+    """Between which radii the spacer beside a hub is, mm; below 0 beyond the centre.
+
+    Of a five-bar only ``b0`` has one: at the input the pinion reaches to its hub.
+    """
     shells, over = shells_of(params), bracket_of(params)
     if name == "a0" and motor_opposite(params):
         return -shells.links["crank"][0], -shells.links["ground-2"][1]
     if over is None:
         link = shells.links["crank" if name == "a0" else "rocker"]
         return link[1], link[1] + params.hardware.gap
-    if name == "b0":
-        return shells.links["arm"][1], shells.links["ground"][0]
-    train = train_of(linkage_of(params), params.drive)
-    assert train is not None  # noqa: S101 - else there is nothing over the gears
-    return gear_span(params, shells, train)[1] * math.cos(train.pinion), over[0]
+    return shells.links["arm"][1], shells.links["ground"][0]
+
+
+def gear_ends(params: SphericalParams, shells: Shells, train: Train, name: str) -> Span:
+    """Between which distances from the centre a gear is along its axis, mm, with its hub.
+
+    With a motor's flange the hub of the pinion reaches to the arc over the gears, those of wheel and idler to
+    the ground, so that no spacers are between them.
+    """
+    half = gear_cones(train)[name][1]
+    low, high = (end * math.cos(half) for end in gear_span(params, shells, train))
+    over = bracket_of(params)
+    if over is None:
+        return low, high
+    return (low, over[0] - AIR) if name == "pinion" else (shells.links["ground"][1] + AIR, high)
+
+
+def idler_ring(params: SphericalParams, shells: Shells, train: Train) -> tuple[Circlip, float] | None:
+    """The ring on the idler's stud and the distance at which it begins, mm; None without a motor's flange."""
+    if bracket_of(params) is None:
+        return None
+    ring = shaft_circlip(params.hardware.pin_diameter)
+    return ring, gear_ends(params, shells, train, "idler")[1] + AIR
+
+
+def stud_form(params: SphericalParams, shells: Shells, train: Train) -> Turned:
+    """The idler's stud from the ground outwards, with the groove of its ring where it has one."""
+    low, high = shells.pins["idler"]
+    held, diameter = idler_ring(params, shells, train), params.hardware.pin_diameter
+    if held is None:
+        return Turned((Step(diameter, high - low),))
+    ring, seat = held
+    groove = Groove(seat - low, ring.width, ring.groove, ring.tolerance)
+    return Turned((Step(diameter, seat + ring.width + ring.edge - low),), grooves=(groove,))
 
 
 def sizes() -> list[float]:
@@ -204,7 +236,9 @@ def shaft_form(params: SphericalParams, shells: Shells, name: str) -> Turned:
 
 
 def spacer_form(params: SphericalParams, name: str) -> Turned | None:
-    """The spacer between a link or gear and its hub; None where the gap is too narrow for one."""
+    """The spacer between a link and its hub; None where the gap is too narrow for one, or a gear is there."""
+    if name == "a0" and bracket_of(params) is not None:
+        return None
     low, high = spacer_room(params, name)
     length, bore = high - low - AIR, params.hardware.pin_diameter + 0.1
     return tube(bore, hubs_of(params)["a0"].outside, length) if length >= 0.5 else None

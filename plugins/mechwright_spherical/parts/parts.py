@@ -118,8 +118,8 @@ def _links(params: SphericalParams, linkage: Linkage, shells: Shells, train: Tra
     bores = coupler_bores(params, shells, linkage)
     yield _solid("coupler", params, "coupler", "coupler", form("coupler", bores))
     if train is not None:
-        for name, (body, half) in gear_cones(train).items():
-            own = form(name, [gear_bore(params, shells, train, half)])
+        for name, (body, _) in gear_cones(train).items():
+            own = form(name, [gear_bore(params, shells, train, name)])
             yield _solid(name, params, body, "gear", own)
 
 
@@ -128,8 +128,6 @@ def _pins(params: SphericalParams, shells: Shells) -> Iterator[Part]:
     diameter, steel = hardware.pin_diameter, hardware.pin_material
     loose = {f"shaft-{name}" for name in hubs_of(params)}
     keys = {name: span for name, (span, _, _) in pin_places(params).items() if name not in loose}
-    if "shaft-idler" in frames:
-        keys["shaft-idler"] = "idler"
     for name, span in keys.items():
         low, high = spans[span]
         at = (Instance(name, low),) if name in frames else ()

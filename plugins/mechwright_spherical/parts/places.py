@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from mechwright import Array, Step, Turned
+from mechwright_spherical.kinematics.chain import orientation
 from mechwright_spherical.kinematics.drive import Train
 from mechwright_spherical.kinematics.linkage import Linkage, linkage_of
 from mechwright_spherical.kinematics.vectors import arc
@@ -69,6 +70,12 @@ def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
 def path_point(linkage: Linkage, frame: Array) -> Array:
     """The path point in the coupler's frame."""
     return np.asarray(frame.T @ linkage.phases[0].at_reference.p[0][:, 0])
+
+
+def in_ground(linkage: Linkage, axis: Array) -> Array:
+    """A direction in space, in the ground's frame."""
+    loop = linkage.shown.loop
+    return np.asarray(orientation(loop.a0, loop.b0).T @ axis)
 
 
 def coupler_seats(linkage: Linkage, frame: Array) -> tuple[Seat, Seat]:
