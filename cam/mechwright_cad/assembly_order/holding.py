@@ -34,7 +34,7 @@ Way = tuple[float, float, float]
 UPRIGHT: tuple[Way, ...] = ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0))
 
 LEVEL_WAYS: tuple[Way, ...] = ((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0))
-"""Ways that look to the floor where an assembly lies on its side: it does if a fitter has two hands full else."""
+"""Ways that look to the floor where an assembly lies on its side: it does if else two units fall."""
 
 STRAIGHT = 0.999
 """Greatest coordinate of a way from which on an assembly is turned to have it downwards."""
@@ -128,22 +128,25 @@ class Holding:
         """Which way is down for a step along ``way``, and what falls then.
 
         The assembly stays as it lies if nothing falls. Else it is turned so that what comes goes downwards if
-        no more falls then, or upright if nothing does. If more than one unit falls it is laid on the side on
-        which nothing does. What falls is held by hand.
+        no more falls then, or upright if nothing does. What falls is held by hand.
         """
-        straight = max(abs(x) for x in way) > STRAIGHT
         falling = self.falling(there, root, down)
         if not falling:
             return down, ()
+        straight = max(abs(x) for x in way) > STRAIGHT
         for tried in dict.fromkeys((*((way,) if straight else ()), *UPRIGHT)):
             found = self.falling(there, root, tried)
             upright = tried == way and abs(way[2]) > STRAIGHT
             if not found or (upright and len(found) <= len(falling)):
-                return tried, found
-        for tried in LEVEL_WAYS if len(falling) > 1 else ():
-            if not self.falling(there, root, tried):
-                return tried, ()
+                down, falling = tried, found
+                break
         return down, falling
+
+    def on_its_side(self, there: frozenset[int], root: int) -> tuple[Way, tuple[Unit, ...]]:
+        """The side on which an assembly can lie so that the least falls, and what does."""
+        sides = {side: self.falling(there, root, side) for side in LEVEL_WAYS}
+        best = min(LEVEL_WAYS, key=lambda side: len(sides[side]))
+        return best, sides[best]
 
     def unretained(self, there: frozenset[int], root: int) -> list[Unit]:
         """Units that are not held: some way is free to each of them."""

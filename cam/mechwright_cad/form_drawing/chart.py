@@ -16,7 +16,9 @@ RADIAL = 1e-6
 Row = tuple[str, ...]
 
 HEADS: Row = ("Bore", "Diameter", "Azimuth", "Elevation", "Faces")
-FROM_CENTRE = "Faces: distances of both ends of a bore from the centre, or where its axis enters and its length"
+FROM_CENTRE = (
+    "Faces: distances of both ends of a bore from the centre, or entry and length"
+)
 
 
 def rows_of(form: FreeForm) -> list[Row]:
@@ -57,7 +59,9 @@ def is_radial(one: FormBore) -> bool:
 
 def widths_of(rows: Sequence[Row]) -> list[float]:
     """Of the columns, mm."""
-    return [max(width_of(text, HEIGHT) for text in column) + 2 * PAD for column in zip(HEADS, *rows, strict=True)]
+    return [
+        max(width_of(text, HEIGHT) for text in column) + 2 * PAD for column in zip(HEADS, *rows, strict=True)
+    ]
 
 
 def size_of(rows: Sequence[Row]) -> Point:

@@ -102,7 +102,10 @@ def form_sheet(part: Part, design: str = "") -> Sheet:
     rows = (
         (("Part", part.name), ("Scale", ratio(scale))),
         (("Design", design or "-"), ("Mass", f"{grams:.1f} g")),
-        (("Material", f"{part.material}, {material(part.material).grades.plate}"), ("Make", str(max(1, len(part.instances))))),
+        (
+            ("Material", f"{part.material}, {material(part.material).grades.plate}"),
+            ("Make", str(max(1, len(part.instances)))),
+        ),
     )
     frame(sheet, rows, plan.notes)
     first_angle(sheet)

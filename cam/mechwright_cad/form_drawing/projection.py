@@ -47,7 +47,7 @@ class View:
 FRONT = View("front", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 TOP = View("top", (1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
 LEFT = View("left", (0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
-"""First-angle projection (ISO 5456-2): the top view stands below the front view, the left one on its right."""
+"""First-angle projection (ISO 5456-2): the top view stands below the front view, the left one beside it."""
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ ACROSS = 1e-6
 
 @dataclass(frozen=True)
 class Placed:
-    """A view on a sheet: where the part's origin is, and the box (x0, y0, x1, y1) of its lines, mm of paper."""
+    """A view on a sheet: the place of the part's origin, and the box (x0, y0, x1, y1) of its lines, mm."""
 
     view: View
     origin: Point
@@ -67,7 +67,7 @@ def draw(sheet: Sheet, placed: Placed, sizes: Sequence[FormSize]) -> None:
     for one in radii:
         if not one.flat:
             _radius(sheet, placed, one, outside=one.radius >= greatest)
-    x0, y0, x1, y1 = placed.box
+    _, y0, x1, _ = placed.box
     level, standing = 0, 0
     lengths = [one for one in mine if isinstance(one, LengthSize)]
     for one in sorted(lengths, key=lambda one: math.dist(one.first, one.second)):
@@ -82,7 +82,9 @@ def draw(sheet: Sheet, placed: Placed, sizes: Sequence[FormSize]) -> None:
 
 def rows_below(view: View, sizes: Sequence[FormSize]) -> float:
     """What the level lengths of a view take below it, mm."""
-    count = sum(1 for one in sizes if isinstance(one, LengthSize) and shown_in(one) == view and _level(one, view))
+    count = sum(
+        1 for one in sizes if isinstance(one, LengthSize) and shown_in(one) == view and _level(one, view)
+    )
     return FREE + ROW * count if count else 0.0
 
 
@@ -146,7 +148,9 @@ def _angle(sheet: Sheet, placed: Placed, one: AngleSize, row: int) -> None:
     x, y = _polar(centre, radius + GAP, middle)
     text = f"{round(one.degrees, 4):g}°"
     wide = width_of(text)
-    sheet.add(Text((x - wide * (1 - math.cos(middle)) / 2, y - HEIGHT * (1 - math.sin(middle)) / 2), text, "DIM"))
+    sheet.add(
+        Text((x - wide * (1 - math.cos(middle)) / 2, y - HEIGHT * (1 - math.sin(middle)) / 2), text, "DIM")
+    )
 
 
 def _reach(placed: Placed, centre: Point) -> float:

@@ -118,8 +118,10 @@ class RadiusSize:
     def text(self) -> str:
         """As a drawing notes it.
 
-        >>> RadiusSize((0, 0, 0), 66.5, (1, 0, 0)).text, RadiusSize((0, 0, 0), 66, (1, 0, 0), sphere=True).text
-        ('R66.5', 'SR66')
+        >>> RadiusSize((0, 0, 0), 66.5, (1, 0, 0)).text
+        'R66.5'
+        >>> RadiusSize((0, 0, 0), 66, (1, 0, 0), sphere=True).text
+        'SR66'
         """
         return f"{'' if self.flat else 'SR' if self.sphere else 'R'}{round(self.radius, 3):g}"
 
@@ -220,7 +222,9 @@ class FreeForm:
     def joined(self) -> "FreeForm":
         """The same with bores as wide as what is pressed into them."""
         wide = (
-            replace(one, diameter=one.fit.size) if one.fit is not None and one.fit.size > one.diameter else one
+            replace(one, diameter=one.fit.size)
+            if one.fit is not None and one.fit.size > one.diameter
+            else one
             for one in self.bores
         )
         return replace(self, bores=tuple(wide))

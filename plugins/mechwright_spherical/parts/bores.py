@@ -4,10 +4,12 @@ Bores for pins point at the centre of the sphere. Those of the ground's flanges 
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from mechwright import Array
+from mechwright.contracts.fits import running_hole, shaft_fit
 from mechwright.contracts.free_form import FormBore
 from mechwright_spherical.kinematics.bodies import pins_of_phase
 from mechwright_spherical.kinematics.drive import Train
@@ -48,10 +50,18 @@ def coupler_bores(params: SphericalParams, shells: Shells, linkage: Linkage) -> 
     """Those of the coupler: for pins that are not set in slots, one for each place; and for the tool."""
     frame, span = pins_of_phase(linkage, 1), shells.links["coupler"]
     for seat in coupler_seats(linkage, frame):
-        if seat.name not in slotted_of(params):
-            for number, place in enumerate(seat.own, start=1):
-                name = seat.name if len(seat.own) == 1 else f"{seat.name}-{number}"
-                yield pin_bore(params, name, place, span)
+        if seat.name in slotted_of(params):
+            continue
+        if len(seat.own) == 1:
+            yield pin_bore(params, seat.name, seat.own[0], span)
+            continue
+        # The pin is in one of them by turns, so all have the limits of the one that it turns in.
+        pin = shaft_fit(params.hardware.pin_diameter, "h6")
+        fit = running_hole(pin.size, params.hardware.fit, pin)
+        for number, place in enumerate(seat.own, start=1):
+            yield replace(
+                pin_bore(params, f"{seat.name}-{number}", place, span), fit=fit, diameter=fit.middle
+            )
     yield pin_bore(params, "tool", path_point(linkage, frame), span)
 
 

@@ -48,7 +48,9 @@ def free_form(
     cones = {} if train is None else gear_cones(train)
     if name in cones and train is not None:
         shells = shells_of(params)
-        sizes = _cone(cones[name][1], gear_span(params, shells, train), gear_ends(params, shells, train, name))
+        sizes = _cone(
+            cones[name][1], gear_span(params, shells, train), gear_ends(params, shells, train, name)
+        )
         return FreeForm(body, CUT, bores, tuple(sizes), centre=True)
     own = name.removesuffix("-n")
     sizes = [*_arc_sizes(params, own, bores)]
@@ -81,8 +83,8 @@ def _arc_sizes(params: SphericalParams, link: str, bores: tuple[FormBore, ...]) 
     for radius, share in zip((low, high), where, strict=True):
         yield RadiusSize(CENTRE, radius, _tuple(direction(share * angle)), sphere)
     half = hardware.link_width / 2
-    middle = (low + high) / 2 * direction(angle / 2)
-    yield LengthSize(_tuple(middle - (0, 0, half)), _tuple(middle + (0, 0, half)))
+    middle, across = (low + high) / 2 * direction(angle / 2), np.array([0.0, 0.0, half])
+    yield LengthSize(_tuple(middle - across), _tuple(middle + across))
     if link != "ground":
         inner, outer = shells.links[link]
         boss = np.array([outer if link != "coupler" else inner, 0.0, hardware.boss_diameter / 2])

@@ -7,7 +7,6 @@ import math
 from functools import lru_cache
 
 import cadquery as cq
-import numpy as np
 
 from mechwright import Array
 from mechwright_spherical.kinematics.bodies import pins_of_phase
@@ -34,7 +33,6 @@ from mechwright_spherical.parts.seats import (
     Seat,
     clamp_of,
     land_width,
-    seats_of,
     slot_width,
     slotted_of,
 )
@@ -56,6 +54,7 @@ PITCH_PLAY = 0.05
 
 _CACHED = 64
 """Solids that are kept: those of some four designs."""
+
 
 @lru_cache(_CACHED)
 def body(params: SphericalParams, name: str) -> cq.Solid:

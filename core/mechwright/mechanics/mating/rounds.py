@@ -50,7 +50,7 @@ ALIKE = 0.3
 class Face:
     """A round face of a part in the part's own coordinates, mm.
 
-    ``low`` and ``high`` are measured along ``direction``, a unit vector, from ``centre``, a point of its axis.
+    ``low`` and ``high`` are measured from its point ``centre`` along its axis, the unit vector ``direction``.
     """
 
     face: str
@@ -147,10 +147,19 @@ def faces_of(part: Part) -> Iterator[Face]:
             radii, heights = zip(*piece.profile, strict=True)
             outer = 2 * max(radii)
             yield Face(
-                "outside", (*piece.axis, 0.0), min(heights), max(heights), outer, False, _of_size(outer, fits), False
+                "outside",
+                (*piece.axis, 0.0),
+                min(heights),
+                max(heights),
+                outer,
+                False,
+                _of_size(outer, fits),
+                False,
             )
             for diameter, low, high in _bores(piece):
-                yield Face("inside", (*piece.axis, 0.0), low, high, diameter, True, _of_size(diameter, fits), False)
+                yield Face(
+                    "inside", (*piece.axis, 0.0), low, high, diameter, True, _of_size(diameter, fits), False
+                )
 
 
 def _of_size(diameter: float, fits: Sequence[Fit]) -> Fit | None:
