@@ -21,7 +21,7 @@ from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.kinematics.vectors import arc, direction
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import ground_beyond, motor_opposite, shells_of
-from mechwright_spherical.parts.mount import EDGE, flange_level, gear_ends
+from mechwright_spherical.parts.mount import EDGE, FACE, flange_level, gear_ends
 from mechwright_spherical.parts.places import gear_cones, gear_span
 from mechwright_spherical.parts.seats import clamp_of, seats_of, slot_width, slotted_of
 from mechwright_spherical.parts.shells import FLANGE, Span
@@ -55,7 +55,10 @@ def free_form(
     own = name.removesuffix("-n")
     sizes = [*_arc_sizes(params, own, bores)]
     # Axes that miss the centre by more than the play of the pins make the linkage bind.
-    notes = [f"Axes of the bores for pins pass the centre within {params.hardware.fit:g}"]
+    notes = [
+        f"Axes of the bores for pins pass the centre within {params.hardware.fit:g}",
+        f"Faces of the bores ±{FACE:g}",
+    ]
     if own == "ground":
         sizes += _stand_sizes(params)
     if own == "coupler":

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from mechwright import DesignError, Flange, Foot, MountingError, kept
 from mechwright.contracts.finding import Change
-from mechwright.contracts.turned import Groove, Step, Turned, tube
+from mechwright.contracts.turned import Groove, Length, Step, Turned, tube
 from mechwright.standards.bushes import Bush, bush_for, bushes
 from mechwright.standards.circlips import Circlip, shaft_circlip, shaft_circlips
 from mechwright.standards.couplings import BORES, couplings
@@ -21,7 +21,7 @@ from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import motor_opposite, shells_of
 from mechwright_spherical.parts.hardware import StandTable
-from mechwright_spherical.parts.places import gear_cones, gear_span
+from mechwright_spherical.parts.places import carried_by, gear_cones, gear_span
 from mechwright_spherical.parts.shells import FLANGE, RISE, Shells, Span
 from mechwright_spherical.parts.stand import FLANGE_SCREWS, MOUNTING_SCREWS
 
@@ -42,6 +42,15 @@ LEAST_SCREW = 5.0
 
 HEAD = 1.25
 """Least diameter of a screw's head over that of its hole."""
+
+FACE = 0.1
+"""Deviation of the end faces of hubs and bosses from their places, plus and minus, mm."""
+
+LOADED = "end of the shaft to the loaded wall of the groove"
+"""The length of a shaft that decides its float."""
+
+WALL_LIMITS = (0.0, 0.1)
+"""Limits of that length, mm."""
 
 FAR = {"ground": "far-ground", "crank": "far-crank"}
 """Frames of both, turned half a turn so that x is the far end of the input's axis."""
@@ -232,7 +241,12 @@ def shaft_form(params: SphericalParams, shells: Shells, name: str) -> Turned:
     if ring is None:
         return Turned((step,))
     groove = Groove(hub.seat - low, ring.width, ring.groove, ring.tolerance)
-    return Turned((step,), grooves=(groove,))
+    if bracket_of(params) is not None:
+        return Turned((step,), grooves=(groove,))
+    wall = Length(LOADED, 0.0, groove.at + groove.width, *WALL_LIMITS)
+    link = carried_by(params, name)
+    note = f"Bond {link} flush with the end from which the groove is measured"
+    return Turned((step,), grooves=(groove,), lengths=(wall,), note=note)
 
 
 def spacer_form(params: SphericalParams, name: str) -> Turned | None:

@@ -95,6 +95,11 @@ def tool_of(params: SphericalParams, shells: Shells) -> Turned:
     return Turned((Step(diameter, tip, start=0.0), Step(diameter, high - low - tip)))
 
 
+def carried_by(params: SphericalParams, shaft: str) -> str:
+    """The link on the shaft ``a0`` or ``b0``."""
+    return "crank" if shaft == "a0" else "arm" if params.kind == "five-bar" else "rocker"
+
+
 def gear_cones(train: Train) -> dict[str, tuple[str, float]]:
     """Gears by part name: body and half angle of the pitch cone, rad."""
     found = {"pinion": ("pinion", train.pinion), "wheel": ("arm", train.wheel)}
