@@ -14,9 +14,9 @@ from mechwright.contracts.free_form import AngleSize, FormBore, FreeForm, Length
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
 from mechwright_cad.form_drawing.chart import direction_of, is_radial, rows_of
+from mechwright_cad.form_drawing.dimensions import shown_in
 from mechwright_cad.form_drawing.drawing import form_sheet
 from mechwright_cad.form_drawing.projection import FRONT, LEFT, TOP, projected
-from mechwright_cad.form_drawing.sizes import shown_in
 from mechwright_cad.sheet.frame import MARGIN
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
 from mechwright_cad.sheet.to_dxf import dxf

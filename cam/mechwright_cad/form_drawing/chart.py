@@ -16,9 +16,7 @@ RADIAL = 1e-6
 Row = tuple[str, ...]
 
 HEADS: Row = ("Bore", "Diameter", "Azimuth", "Elevation", "Faces")
-FROM_CENTRE = (
-    "Faces: distances of both ends of a bore from the centre, or entry and length"
-)
+FROM_CENTRE = "Faces: distances of both ends of a bore from the centre, or entry and length"
 
 
 def rows_of(form: FreeForm) -> list[Row]:

@@ -11,9 +11,9 @@ from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
 from mechwright_cad.form_drawing import chart as charts
-from mechwright_cad.form_drawing import sizes as sizing
+from mechwright_cad.form_drawing import dimensions as dimensioning
+from mechwright_cad.form_drawing.dimensions import Placed
 from mechwright_cad.form_drawing.projection import FRONT, LEFT, TOP, Projection, projected
-from mechwright_cad.form_drawing.sizes import Placed
 from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, first_angle, frame, ratio
 from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import Sheet, Text, width_of
@@ -48,18 +48,18 @@ class _Plan:
         """What a view takes to the left of, below, to the right of and above the part's origin, mm."""
         x0, y0, x1, y1 = (scale * end for end in self.box(k))
         view, sizes = self.views[k].view, self.form.sizes
-        beside, below = sizing.rows_beside(view, sizes), sizing.rows_below(view, sizes)
+        beside, below = dimensioning.rows_beside(view, sizes), dimensioning.rows_below(view, sizes)
         if k > 0:
             return -x0, below - y0, x1 + beside, y1
         # Angles run about the centre, outside of the whole view.
-        reach = max(-x0, x1, -y0, y1) + sizing.rows_around(sizes)
+        reach = max(-x0, x1, -y0, y1) + dimensioning.rows_around(sizes)
         left, low, right, high = (reach * share for share in self._turned())
-        flat = sizing.rows_flat(sizes)
+        flat = dimensioning.rows_flat(sizes)
         return max(flat - x0, left), max(below - y0, low), max(x1 + beside, right), max(y1, high)
 
     def _turned(self) -> tuple[float, float, float, float]:
         """How far the angles of the front view reach to the left, down, right and up, as shares of 1."""
-        ends = sizing.ends_of(self.form.sizes)
+        ends = dimensioning.ends_of(self.form.sizes)
         if not ends:
             return 0.0, 0.0, 0.0, 0.0
         x, y = zip(*ends, strict=True)
@@ -150,7 +150,7 @@ def _view(sheet: Sheet, plan: _Plan, k: int, origin: Point) -> None:
     if plan.form.centre:
         _cross(sheet, origin, named=k == 0)
     _axes(sheet, placed, plan.form)
-    sizing.draw(sheet, placed, plan.form.sizes)
+    dimensioning.draw(sheet, placed, plan.form.sizes)
 
 
 def _cross(sheet: Sheet, at: Point, *, named: bool) -> None:
@@ -167,7 +167,7 @@ def _axes(sheet: Sheet, placed: Placed, form: FreeForm) -> None:
     for one in form.bores:
         first, second = (placed.at(end) for end in (one.start, one.end))
         along = abs(float(placed.view.towards @ np.array(one.axis)))
-        if along > 1 - sizing.ACROSS:
+        if along > 1 - dimensioning.ACROSS:
             x, y = first
             arm = placed.scale * one.diameter / 2 + OVERHANG / 2
             sheet.lines([(x - arm, y), (x + arm, y)], "CENTRE")
@@ -180,7 +180,7 @@ def _axes(sheet: Sheet, placed: Placed, form: FreeForm) -> None:
             ]
             sheet.lines(ends, "CENTRE")
             first = ends[0]
-        end_on = along > 1 - sizing.ACROSS
+        end_on = along > 1 - dimensioning.ACROSS
         if end_on or (placed.view == FRONT and charts.is_radial(one)):
             back = 0.0 if end_on else width_of(one.name, 2.5)
             sheet.add(Text((first[0] + 1.0 - back, first[1] + 1.0), one.name, "TEXT", 2.5))
