@@ -68,7 +68,7 @@ def test_it_states_angle_radii_width_and_the_limits_of_bores(sheet):
     assert {"R40", "R50", "12", "⌀6 P7 (-0.02/-0.008)", "40 to 50"} <= set(shown)
     assert {
         "Mind the burr",
-        "Made by five-axis milling",
+        "Process: five-axis milling",
         "Form by arm.step; this drawing states sizes and limits",
     } <= {*shown}
     volume = arm().build().Volume()

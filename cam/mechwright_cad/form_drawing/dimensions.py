@@ -80,7 +80,7 @@ def draw(sheet: Sheet, placed: Placed, sizes: Sequence[FormSize]) -> None:
             standing += 1
 
 
-def rows_below(view: View, sizes: Sequence[FormSize]) -> float:
+def level_rows(view: View, sizes: Sequence[FormSize]) -> float:
     """What the level lengths of a view take below it, mm."""
     count = sum(
         1 for one in sizes if isinstance(one, LengthSize) and shown_in(one) == view and _level(one, view)
@@ -88,7 +88,7 @@ def rows_below(view: View, sizes: Sequence[FormSize]) -> float:
     return FREE + ROW * count if count else 0.0
 
 
-def rows_beside(view: View, sizes: Sequence[FormSize]) -> float:
+def upright_rows(view: View, sizes: Sequence[FormSize]) -> float:
     """What the upright lengths of a view take on its right, mm."""
     count = sum(
         1 for one in sizes if isinstance(one, LengthSize) and shown_in(one) == view and not _level(one, view)
@@ -96,12 +96,12 @@ def rows_beside(view: View, sizes: Sequence[FormSize]) -> float:
     return FREE + 2 * ROW * count + width_of("⌀100.5") if count else 0.0
 
 
-def rows_around(sizes: Sequence[FormSize]) -> float:
+def angle_rows(sizes: Sequence[FormSize]) -> float:
     """What the angles take around the front view, mm."""
     return FREE + ROW * sum(isinstance(one, AngleSize) for one in sizes)
 
 
-def rows_flat(sizes: Sequence[FormSize]) -> float:
+def distance_rows(sizes: Sequence[FormSize]) -> float:
     """What distances from the centre take beside it, mm."""
     count = sum(isinstance(one, RadiusSize) and one.flat for one in sizes)
     return ROW * (count + 3) if count else FREE

@@ -48,13 +48,13 @@ class _Plan:
         """What a view takes to the left of, below, to the right of and above the part's origin, mm."""
         x0, y0, x1, y1 = (scale * end for end in self.box(k))
         view, sizes = self.views[k].view, self.form.sizes
-        beside, below = dimensioning.rows_beside(view, sizes), dimensioning.rows_below(view, sizes)
+        beside, below = dimensioning.upright_rows(view, sizes), dimensioning.level_rows(view, sizes)
         if k > 0:
             return -x0, below - y0, x1 + beside, y1
         # Angles run about the centre, outside of the whole view.
-        reach = max(-x0, x1, -y0, y1) + dimensioning.rows_around(sizes)
+        reach = max(-x0, x1, -y0, y1) + dimensioning.angle_rows(sizes)
         left, low, right, high = (reach * share for share in self._turned())
-        flat = dimensioning.rows_flat(sizes)
+        flat = dimensioning.distance_rows(sizes)
         return max(flat - x0, left), max(below - y0, low), max(x1 + beside, right), max(y1, high)
 
     def _turned(self) -> tuple[float, float, float, float]:
@@ -116,7 +116,7 @@ def notes_of(part: Part, form: FreeForm) -> list[str]:
     """What holds for the whole part."""
     return [
         "Tolerances ISO 2768-mK, principle ISO 8015; surfaces Ra 3.2, edges broken 0.2 (ISO 13715)",
-        f"Made by {form.process}",
+        f"Process: {form.process}",
         f"Form by {part.name}.step; this drawing states sizes and limits",
         *form.notes,
     ]
