@@ -15,6 +15,7 @@ from mechwright_cad.exporters import (
     StlExporter,
     ThreeMfExporter,
 )
+from mechwright_cad.form_drawing.page import FormDrawings
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
 from mechwright_cad.plate_drawing.page import PlateDrawings
 from mechwright_cad.results import Assembled, PartPicture, PartSolid
@@ -39,6 +40,7 @@ def mechwright_register() -> list[type[Plugin]]:
         DrawingTable,
         PlateDrawings,
         TurnedDrawings,
+        FormDrawings,
         AssemblyGuide,
         Interference,
         ScrewLengths,

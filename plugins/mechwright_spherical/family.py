@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from mechwright import (
         Array,
         AsMade,
+        AxialStack,
         Flange,
         MadePart,
         Motion,
@@ -80,6 +81,12 @@ class Spherical(Family[SphericalParams]):
 
         refuse(self.check(params))
         return parts_of(params)
+
+    def stacks(self, params: SphericalParams) -> "Sequence[AxialStack]":
+        """The floats of both shafts of a ground with a motor's flange."""
+        from mechwright_spherical.parts.stacks import stacks_of
+
+        return tuple(stacks_of(params))
 
     def mounting(self, params: SphericalParams) -> "Flange":
         """The flange of the ground link about the input axis, and the base."""

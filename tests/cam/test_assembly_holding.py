@@ -89,6 +89,36 @@ def test_a_plate_rests_where_its_middle_stands_over_what_it_touches_and_tips_whe
     assert falls(turned_over, "post", "lid", down=UP) == [], "the lid lies on the bench and bears the others"
 
 
+def test_what_rests_on_a_part_that_is_held_by_hand_needs_no_hand():
+    post = turned("post", 6.0, Turned((Length(12.0, 20.0),)))
+    lid = plate("lid", 26.0, at=(12.0, 0.0))
+    weight = plate("weight", 32.0, half=5.0, at=(12.0, 0.0))
+    overhang = plate("weight", 32.0, half=5.0, at=(34.0, 0.0))
+    assert falls(order_of(plate("base", 0.0), post, lid, weight), "post", "lid", "weight") == ["lid"]
+    both = order_of(plate("base", 0.0), post, lid, overhang)
+    assert falls(both, "post", "lid", "weight") == ["lid", "weight"], "its middle is beyond the lid's edge"
+    hanging = order_of(plate("base", 0.0), post, lid, plate("weight", 20.0, half=4.0, at=(20.0, 0.0)))
+    assert falls(hanging, "post", "lid", "weight") == ["weight"], "held under the lid, it props that"
+
+
+def test_an_assembly_is_laid_on_its_side_where_two_parts_fall_else():
+    base = plate("base", 0.0, ((-10.0, 0.0), 8.0), ((10.0, 0.0), 8.0))
+    frames = {"left": (-10.0, 0.0), "right": (10.0, 0.0)}
+    still = {name: Poses.planar(x, y, np.zeros(2)) for name, (x, y) in frames.items()}
+    pins = [turned(name, -4.0, Turned((Length(8.0, 14.0),))) for name in frames]
+    joints = {"base": Joint("fixed", GROUND, "base")}
+    poses = {"base": Poses.planar(0.0, 0.0, np.zeros(2)), **still}
+    motion = Motion("t", {"t": Channel(np.zeros(2), "rad")}, poses, joints=joints)
+    order = Order(bodies_of((base, *pins), motion), motion, 0)
+    assert falls(order, "left", "right") == ["left", "right"]
+    assert falls(order, "left", "right", down=UP) == ["left", "right"]
+    assert falls(order, "left", "right", down=(1.0, 0.0, 0.0)) == []
+    first, last = order.steps
+    assert len(first.hand) == 1
+    assert last.hand == ()
+    assert abs(last.down[2]) < 0.1
+
+
 def test_a_screw_makes_what_it_clamps_one_with_its_thread():
     thread = EndThread("lower", 6.0, 1.0, 16.0)
     pillar = turned("pillar", 6.0, Turned((Length(12.0, 30.0),), threads=(thread,)), body="base")

@@ -19,12 +19,12 @@ from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.turned import EndThread, Groove, KeySeat, Length, Step, Turned, tube
 from mechwright.errors import GeometryError
 from mechwright_cad.sheet.frame import MARGIN, SHEETS
+from mechwright_cad.sheet.scales import SCALES
 from mechwright_cad.sheet.settings import DrawingSettings
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
 from mechwright_cad.sheet.title import TitleBlock
 from mechwright_cad.sheet.to_dxf import dxf
 from mechwright_cad.sheet.to_pdf import pdf
-from mechwright_cad.sheet.words import SCALES
 from mechwright_cad.turned_drawing.drawing import turned_sheet
 
 SHAFT = Turned(

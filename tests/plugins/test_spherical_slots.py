@@ -19,6 +19,8 @@ from mechwright_spherical.kinematics.vectors import arc, azimuth, rotate
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts import links
 from mechwright_spherical.parts.frame import shells_of
+from mechwright_spherical.parts.parts import parts_of
+from mechwright_spherical.parts.places import coupler_seats
 from mechwright_spherical.parts.seats import clamp_of, seats_of, slotted_of
 from mechwright_spherical.parts.solids import cylinder
 
@@ -28,6 +30,10 @@ REFERENCE = {
     "ground": 70, "input": 25, "coupler": 65, "output": 60, "branch": -1, "point_azimuth": 30,
     "point_elevation": 25, "setting_angle": 50,
 }  # fmt: skip
+
+
+def solid_of(params, name):
+    return next(part for part in parts_of(params) if part.name == name).build()
 
 
 def four(*rows, phase=1, **more):
@@ -123,9 +129,9 @@ def test_phases_far_apart_have_a_bore_each():
     assert clamp_of(params) is None
     names = [part.name for part in FAMILY.parts(params)]
     assert "clamp-screw" not in names
-    coupler = links.solid(params, "coupler")
+    coupler = solid_of(params, "coupler")
     span, linkage = shells_of(params).links["coupler"], linkage_of(params)
-    for seat in links.coupler_seats(linkage, pins_of_phase(linkage, 1)):
+    for seat in coupler_seats(linkage, pins_of_phase(linkage, 1)):
         for place in seat.places:
             assert cylinder(place, span, params.hardware.pin_diameter).intersect(coupler).Volume() < 1e-6
             assert cylinder(place, span, 11.0).intersect(coupler).Volume() > 100
@@ -134,10 +140,10 @@ def test_phases_far_apart_have_a_bore_each():
 @pytest.mark.parametrize("design", [example("spherical-four-bar-slots"), five()], ids=["four", "five"])
 def test_slots_pass_all_places_and_marks_count_the_phases(design):
     linkage = linkage_of(design)
-    coupler, span = links.solid(design, "coupler"), shells_of(design).links["coupler"]
+    coupler, span = solid_of(design, "coupler"), shells_of(design).links["coupler"]
     assert coupler.isValid()
     thread = clamp_of(design).size.size
-    for seat in links.coupler_seats(linkage, pins_of_phase(linkage, 1)):
+    for seat in coupler_seats(linkage, pins_of_phase(linkage, 1)):
         for share in (0.0, 0.5, 1.0):
             at = rotate(seat.axis, share * seat.sweep, seat.ends[0])
             assert cylinder(at, span, thread).intersect(coupler).Volume() < 1e-6
@@ -184,6 +190,6 @@ def test_every_phase_has_the_same_solids():
     ]
     one, two = ({part.name: part for part in FAMILY.parts(params)} for params in shown)
     assert one["coupler"] == two["coupler"]
-    solids = [links.solid(params, "coupler") for params in shown]
+    solids = [solid_of(params, "coupler") for params in shown]
     assert solids[0].Volume() == pytest.approx(solids[1].Volume(), rel=1e-9)
     assert solids[0].Center().toTuple() == pytest.approx(solids[1].Center().toTuple(), abs=1e-6)

@@ -16,13 +16,22 @@ from mechwright_spherical.family import Spherical
 from mechwright_spherical.kinematics.bodies import pins_of_phase
 from mechwright_spherical.kinematics.drive import external, internal, train_of
 from mechwright_spherical.kinematics.linkage import linkage_of
-from mechwright_spherical.kinematics.vectors import arc, dot, rotate, vector
+from mechwright_spherical.kinematics.vectors import arc, direction, dot, rotate, vector
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts import links, solids
+from mechwright_spherical.parts.bores import X
 from mechwright_spherical.parts.flat import strip, strip_outline
 from mechwright_spherical.parts.frame import shells_of
 from mechwright_spherical.parts.hardware import FlatTable
-from mechwright_spherical.parts.places import gear_cones, gear_span, link_arcs, pin_places
+from mechwright_spherical.parts.parts import parts_of
+from mechwright_spherical.parts.places import (
+    coupler_seats,
+    gear_cones,
+    gear_span,
+    link_arcs,
+    path_point,
+    pin_places,
+)
 from mechwright_spherical.parts.seats import clamp_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -33,6 +42,15 @@ FAMILY = Spherical()
 def example(name):
     table = tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
     return SphericalParams.model_validate(table["parameters"])
+
+
+def made(params, name):
+    """The solid of a part in the frame of its link: pins stand in frames of their own."""
+    part = next(part for part in parts_of(params) if part.name == name)
+    if part.turned is None:
+        return part.build()
+    span, _, angle = pin_places(params)[name]
+    return solids.cylinder(direction(angle), shells_of(params).pins[span], part.turned.greatest)
 
 
 def in_phase(params, phase):
@@ -79,18 +97,18 @@ def test_links_meet_in_their_pins(name, phase):
             "rocker": float(linkage.five_bar.rocker_arcs[1]),
         }
     frame = pins_of_phase(linkage, 1)
-    ends = [seat.places[now.number - 1] for seat in links.coupler_seats(linkage, frame)]
+    ends = [seat.places[now.number - 1] for seat in coupler_seats(linkage, frame)]
     where = {
-        "a": [("crank", links.direction(arcs["crank"])), ("coupler", ends[0])],
-        "c": [("rocker", links.direction(arcs["rocker"])), ("coupler", ends[1])],
-        "b": [("rocker", links.X)],
-        "p": [("coupler", links.path_point(linkage, frame))],
-        "a0": [("crank", links.X), ("ground", links.X)],
-        "b0": [("ground", links.direction(arcs["ground"]))],
+        "a": [("crank", direction(arcs["crank"])), ("coupler", ends[0])],
+        "c": [("rocker", direction(arcs["rocker"])), ("coupler", ends[1])],
+        "b": [("rocker", X)],
+        "p": [("coupler", path_point(linkage, frame))],
+        "a0": [("crank", X), ("ground", X)],
+        "b0": [("ground", direction(arcs["ground"]))],
     }
     if linkage.five_bar:
-        where["b"].append(("arm", links.direction(arcs["arm"])))
-        where["b0"].append(("arm", links.X))
+        where["b"].append(("arm", direction(arcs["arm"])))
+        where["b0"].append(("arm", X))
     for pin, holders in where.items():
         wanted = getattr(state, pin)[0].T if pin in "abcp" else np.tile(getattr(now.loop, pin), (7, 1))
         for body, own in holders:
@@ -166,8 +184,8 @@ def test_volumes_of_arcs_are_their_closed_forms(inner, thickness, width, angle):
     sine = width / (inner + outer)
     assert shell.Volume() == pytest.approx(2 * sine * (outer**3 - inner**3) / 3 * angle, rel=1e-6)
     middle = rotate(vector(np.cross(u, v)), angle / 2, u) * (inner + outer) / 2
-    for made in (body, shell):
-        assert made.isInside(tuple(middle.tolist())), "the arc goes the other way round"
+    for one in (body, shell):
+        assert one.isInside(tuple(middle.tolist())), "the arc goes the other way round"
 
 
 def test_arcs_of_a_design_have_their_closed_forms():
@@ -177,8 +195,8 @@ def test_arcs_of_a_design_have_their_closed_forms():
         shells, linkage = shells_of(params), linkage_of(params)
         for link, angle in link_arcs(linkage).items():
             low, high = shells.arc(link)
-            made = solids.arc_body(links.X, links.direction(angle), (low, high), params.hardware.link_width)
-            assert made.Volume() == pytest.approx(
+            body = solids.arc_body(X, direction(angle), (low, high), params.hardware.link_width)
+            assert body.Volume() == pytest.approx(
                 params.hardware.link_width * (high**2 - low**2) / 2 * angle, rel=1e-6
             )
 
@@ -188,10 +206,10 @@ def test_slots_let_their_pins_through(name):
     """Screws in between the two seats do not touch the coupler; thicker ones do, and studs bear on it."""
     params = example(name)
     linkage = linkage_of(params)
-    coupler = links.solid(params, "coupler")
+    coupler = made(params, "coupler")
     span = shells_of(params).links["coupler"]
     thread = clamp_of(params).size.size
-    for seat in links.coupler_seats(linkage, pins_of_phase(linkage, 1)):
+    for seat in coupler_seats(linkage, pins_of_phase(linkage, 1)):
         for share in (0.0, 0.3, 0.5, 0.8, 1.0):
             at = rotate(seat.axis, share * seat.sweep, seat.ends[0])
             if name == NAMES[1]:
@@ -212,13 +230,13 @@ def test_a_rocker_of_the_second_phase_brings_its_own_pin():
     assert not {"rocker-n", "pin-c-n"} & shown[0]
     assert not {"rocker", "pin-c"} & shown[1]
     for own in ("", "-n"):
-        pin, rocker = (links.solid(two, f"{name}{own}") for name in ("pin-c", "rocker"))
+        pin, rocker = (made(two, f"{name}{own}") for name in ("pin-c", "rocker"))
         assert pin.intersect(rocker).Volume() < 1e-6
-    assert links.solid(two, "pin-c").intersect(links.solid(two, "rocker-n")).Volume() > 1e-3
+    assert made(two, "pin-c").intersect(made(two, "rocker-n")).Volume() > 1e-3
 
 
 def test_a_face_narrower_than_the_chord_is_divided_more_finely():
-    coupler = links.solid(CompleteParams(radius=40), "coupler")
+    coupler = made(CompleteParams(radius=40), "coupler")
     mesh = mesh_of(coupler, ruled=False, tolerance=0.1)
     corners = mesh.points[mesh.triangles]
     volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
@@ -229,23 +247,21 @@ def test_pins_fit_their_bores_and_nothing_else_is_there():
     params = example(NAMES[2])
     shells = shells_of(params)
     for part, (span, body, angle) in pin_places(params).items():
-        pin = links.solid(params, part)
+        pin = made(params, part)
         low, high = shells.pins[span]
         assert pin.Volume() == pytest.approx(
             math.pi / 4 * params.hardware.pin_diameter**2 * (high - low), rel=1e-9
         )
         if body in ("crank", "rocker"):
-            link = links.solid(params, body)
+            link = made(params, body)
             assert pin.intersect(link).Volume() < 1e-6
-            fat = solids.cylinder(
-                links.direction(angle), shells.links[body], params.hardware.boss_diameter - 0.1
-            )
+            fat = solids.cylinder(direction(angle), shells.links[body], params.hardware.boss_diameter - 0.1)
             assert fat.intersect(link).Volume() > 100
 
 
 def test_the_shell_section_changes_the_links():
     one, two = (SphericalParams.model_validate({"hardware": {"section": s}}) for s in ("rectangle", "shell"))
-    volumes = [links.solid(params, "arm").Volume() for params in (one, two)]
+    volumes = [made(params, "arm").Volume() for params in (one, two)]
     assert volumes[0] != pytest.approx(volumes[1], abs=1e-3)
     assert volumes[0] == pytest.approx(volumes[1], rel=5e-3)
 
@@ -262,7 +278,7 @@ def test_no_arc_of_a_link_with_several_is_lost_in_the_shell_section(name, body):
     """The sides of two strips are cones with one tip: the kernel kept one of the strips alone."""
     params = example(name)
     shell = params.model_copy(update={"hardware": params.hardware.model_copy(update={"section": "shell"})})
-    flat, true = (links.solid(one, body) for one in (params, shell))
+    flat, true = (made(one, body) for one in (params, shell))
     assert true.isValid()
     assert true.Volume() == pytest.approx(flat.Volume(), rel=3e-3)
 
@@ -272,7 +288,7 @@ def test_gears_end_on_their_cones():
     train = train_of(linkage_of(params), params.drive)
     low, high = gear_span(params, shells_of(params), train)
     for name, (_, angle) in gear_cones(train).items():
-        box = links.solid(params, name).BoundingBox()
+        box = made(params, name).BoundingBox()
         assert box.xmax == pytest.approx(high * math.cos(angle), abs=1e-6)
         assert box.xmin == pytest.approx(low * math.cos(angle), abs=1e-6)
         assert box.ymax == pytest.approx(high * math.sin(angle) - links.PITCH_PLAY, abs=1e-6)
@@ -330,6 +346,6 @@ def test_strips_that_cannot_be_bent_are_left_out_and_told_of():
 def test_strips_are_made_where_all_of_them_can_be_bent():
     usual = Spherical().Params(kind="four-bar")
     said = usual.model_copy(update={"flat": FlatTable(make=True)})
-    made = [[part.name for part in Spherical().parts(one)] for one in (usual, said)]
-    assert made[0] == made[1]
-    assert "flat-crank" in made[0]
+    names = [[part.name for part in Spherical().parts(one)] for one in (usual, said)]
+    assert names[0] == names[1]
+    assert "flat-crank" in names[0]

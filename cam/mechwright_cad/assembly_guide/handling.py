@@ -31,7 +31,10 @@ class Handling:
         if lay == step.down:
             return ""
         if abs(step.down[2]) < STEEP:
-            return "Lay it on the side first, so that this comes from above."
+            if step.way is None or sum(a * b for a, b in zip(step.way, step.down, strict=True)) > STEEP:
+                return "Lay it on the side first, so that this comes from above."
+            x, y, _ = step.down
+            return f"Lay it on {_SIDES[round(math.degrees(math.atan2(y, x)) / 45) % 8]} side first."
         return "Turn it over first." if step.down[2] > 0 else "Turn it upright first."
 
     def stands(self, step: Step) -> bool:

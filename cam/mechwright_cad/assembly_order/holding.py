@@ -12,7 +12,7 @@ resting
     A unit that is not held rests if others carry it: it cannot sink, and its centre of volume stands over the
     area that it touches, or others stop it on all sides.
 falling
-    A unit that is neither held nor rests: a fitter has to hold it by hand.
+    A unit that neither is held nor rests, not even on one that a hand holds: a fitter has to hold it by hand.
 """
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -32,6 +32,9 @@ Unit = frozenset[int]
 Way = tuple[float, float, float]
 
 UPRIGHT: tuple[Way, ...] = ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0))
+
+LEVEL_WAYS: tuple[Way, ...] = ((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, -1.0, 0.0))
+"""Ways that look to the floor where an assembly lies on its side: it does if else two units fall."""
 
 STRAIGHT = 0.999
 """Greatest coordinate of a way from which on an assembly is turned to have it downwards."""
@@ -90,10 +93,36 @@ class Holding:
             others = [unit for unit in sorted(set(units.values()), key=min) if unit != ground]
             lying = [unit for unit in others if self._carries(unit, there, ground, way)]
             bearing = frozenset((ground, *lying))
-            self._falling[key] = tuple(
+            falls = [
                 unit for unit in others if unit not in bearing and not self._rests(unit, units, bearing, way)
-            )
+            ]
+            self._falling[key] = tuple(sorted(self._by_hand(falls, units, bearing, way), key=min))
         return self._falling[key]
+
+    def _by_hand(
+        self, falls: Sequence[Unit], units: Mapping[int, Unit], bearing: frozenset[Unit], down: Array
+    ) -> Iterator[Unit]:
+        """Of units that fall those to hold, so that the others rest on them: each as good as the next."""
+        left = list(falls)
+        while left:
+            tried = {unit: self._left(left, unit, units, bearing, down) for unit in left}
+            best = min(left, key=lambda unit: (len(tried[unit]), min(unit)))
+            yield best
+            left, bearing = tried[best], bearing | {best}
+
+    def _left(
+        self,
+        falls: Sequence[Unit],
+        held: Unit,
+        units: Mapping[int, Unit],
+        bearing: frozenset[Unit],
+        down: Array,
+    ) -> list[Unit]:
+        """Units that fall though a hand holds one of them."""
+        if len(falls) == 1:
+            return []
+        bearing = bearing | {held}
+        return [unit for unit in falls if unit != held and not self._rests(unit, units, bearing, down)]
 
     def down(self, there: frozenset[int], root: int, down: Way, way: Way) -> tuple[Way, tuple[Unit, ...]]:
         """Which way is down for a step along ``way``, and what falls then.
@@ -101,16 +130,23 @@ class Holding:
         The assembly stays as it lies if nothing falls. Else it is turned so that what comes goes downwards if
         no more falls then, or upright if nothing does. What falls is held by hand.
         """
-        straight = max(abs(x) for x in way) > STRAIGHT
         falling = self.falling(there, root, down)
         if not falling:
             return down, ()
+        straight = max(abs(x) for x in way) > STRAIGHT
         for tried in dict.fromkeys((*((way,) if straight else ()), *UPRIGHT)):
             found = self.falling(there, root, tried)
             upright = tried == way and abs(way[2]) > STRAIGHT
             if not found or (upright and len(found) <= len(falling)):
-                return tried, found
+                down, falling = tried, found
+                break
         return down, falling
+
+    def on_its_side(self, there: frozenset[int], root: int) -> tuple[Way, tuple[Unit, ...]]:
+        """The side on which an assembly can lie so that the least falls, and what does."""
+        sides = {side: self.falling(there, root, side) for side in LEVEL_WAYS}
+        best = min(LEVEL_WAYS, key=lambda side: len(sides[side]))
+        return best, sides[best]
 
     def unretained(self, there: frozenset[int], root: int) -> list[Unit]:
         """Units that are not held: some way is free to each of them."""

@@ -159,7 +159,7 @@ def _coarse(part: Part) -> Surface:
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 
-    solid = part_solid(part)
+    solid = part_solid(joined(part))
     tolerance = min(CHORD, FINE * solid.BoundingBox().DiagonalLength)
     mesh = mesh_of(solid, ruled=False, tolerance=tolerance)
     return Surface(mesh.points, mesh.triangles)

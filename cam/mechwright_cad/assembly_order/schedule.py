@@ -92,10 +92,16 @@ class _Bench:
         self.there = self.there.union(unit.bodies)
         self._down, falling = self.holding.down(self.there, self.root, self._down, unit.way)
         self._hand = tuple(sorted(number for one in falling for number in one))
+        placed = Placed(unit, self._down, self._hand)
+        if len(falling) > 1:
+            # Two hands are needed as it lies: it is laid on its side for this step if one is enough there.
+            side, fewer = self.holding.on_its_side(self.there, self.root)
+            if len(fewer) < min(len(falling), 2):
+                placed = Placed(unit, side, tuple(sorted(number for one in fewer for number in one)))
         self._unretained = len(self.holding.unretained(self.there, self.root))
         self._last = unit
         self.left.remove(k)
-        return Placed(unit, self._down, self._hand)
+        return placed
 
     def worth(self, k: int) -> tuple[object, ...]:
         """How good a unit is as the next one; the least is the best."""

@@ -107,6 +107,8 @@ def _body(
     bought = first.bought
     notes = [bought.note] if bought is not None and bought.note else []
     notes += dict.fromkeys(more[part.name] for part in those if part.name in more)
+    if first.free_form is not None:
+        notes.append(f"process: {first.free_form.process}")
     if not all(part.instances for part in those):
         notes.append(ABSENT)
     order = Order("") if bought is None else order_of(bought)

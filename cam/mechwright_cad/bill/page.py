@@ -86,7 +86,9 @@ def order_of(build: Build) -> list[str]:
 def drawings_of(build: Build) -> dict[str, list[str]]:
     """Names of the drawings that are written, by part: plates have theirs beside their programs."""
     found = {
-        part.name: [part.name + end for end in SUFFIXES] for part in build.parts if part.kind == "turned"
+        part.name: [part.name + end for end in SUFFIXES]
+        for part in build.parts
+        if part.kind == "turned" or part.free_form is not None
     }
     if build.wanted.command == "build":
         found |= {part.name: [f"{part.name}.dxf"] for part in build.parts if part.kind == "plate"}

@@ -70,10 +70,11 @@ def finished(part: Part) -> str:
 
 
 def grade_of(part: Part) -> str:
-    """The designation of what a made part is made of; empty for one that is neither plate nor turned."""
+    """The designation of what a made part is made of; empty for a solid of which nothing is said."""
     if part.turned is not None:
         return material(part.material).grades.bar
-    return material(part.material).grades.plate if part.outline is not None else ""
+    known = part.outline is not None or part.free_form is not None
+    return material(part.material).grades.plate if known else ""
 
 
 def pieces(parts: Sequence[Part], blanks: Sequence[Blank]) -> Iterator[Piece]:

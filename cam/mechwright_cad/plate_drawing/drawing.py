@@ -26,13 +26,11 @@ from mechwright_cad.sheet import tables
 from mechwright_cad.sheet.dimensions import FREE, ROW, length, upright
 from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame
 from mechwright_cad.sheet.geometric import HIGH, Symbol, datum, tolerance_frame
+from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import Sheet, width_of
 from mechwright_cad.sheet.tables import STEP, Row
 from mechwright_cad.sheet.title import TitleBlock, projection_sign
-from mechwright_cad.sheet.words import GENERAL, SCALES, number
-
-LEAST = 0.5
-"""A smaller scale than this is taken only where the largest sheet wants it."""
+from mechwright_cad.sheet.words import GENERAL, number
 
 _BETWEEN = 6.0
 """Between views, and between columns of tables, mm."""

@@ -1,8 +1,10 @@
 """Datums and frames of geometrical tolerances (ISO 5459, ISO 1101)."""
 
+import math
 from typing import Literal
 
 from mechwright.geometry.segments import Point
+from mechwright_cad.sheet.circles import arc, ring
 from mechwright_cad.sheet.sheet import Fill, Sheet, Text, width_of
 from mechwright_cad.sheet.tables import SMALL
 
@@ -47,12 +49,10 @@ def tolerance_frame(sheet: Sheet, at: Point, symbol: Symbol, zone: str, datums: 
 
 
 def _symbol(sheet: Sheet, middle: Point, symbol: Symbol) -> None:
-    from mechwright.geometry import circle
-
     x, y = middle
     match symbol:
         case "position":
-            sheet.lines([tuple(point) for point in circle(middle, 1.0).flatten(0.02).tolist()], "DIM")
+            sheet.lines(ring(middle, 1.0), "DIM")
             sheet.lines([(x - 1.7, y), (x + 1.7, y)], "DIM")
             sheet.lines([(x, y - 1.7), (x, y + 1.7)], "DIM")
         case "perpendicularity":
@@ -60,5 +60,4 @@ def _symbol(sheet: Sheet, middle: Point, symbol: Symbol) -> None:
             sheet.lines([(x, y - 1.5), (x, y + 1.5)], "DIM")
         case "profile":
             sheet.lines([(x - 1.7, y - 0.8), (x + 1.7, y - 0.8)], "DIM")
-            rows = circle((x, y - 0.8), 1.7).flatten(0.02).tolist()
-            sheet.lines([tuple(point) for point in rows if point[1] >= y - 0.8 - 1e-9], "DIM")
+            sheet.lines(arc((x, y - 0.8), 1.7, 0.0, math.pi), "DIM")

@@ -1,31 +1,29 @@
 """What is on a sheet, in mm of the paper: strokes, filled areas, texts, and dimensions made of them."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
 from mechwright.geometry.segments import Point
 
-Layer = Literal["OUTLINE", "DIM", "CENTRE", "HIDDEN", "HATCH", "TEXT", "FRAME"]
+Layer = Literal["OUTLINE", "HIDDEN", "DIM", "CENTRE", "HATCH", "TEXT", "FRAME"]
 
 THICK, THIN = 0.5, 0.25
 """Widths of lines, mm (ISO 128: one group)."""
 
 WIDTH: dict[Layer, float] = {
     "OUTLINE": THICK,
+    "HIDDEN": THIN,
     "DIM": THIN,
     "CENTRE": THIN,
-    "HIDDEN": THIN,
     "HATCH": THIN,
     "TEXT": THIN,
     "FRAME": THICK,
 }
 
-DASHES = (6.0, 1.5, 0.5, 1.5)
-"""Dash, gap, dot, gap of a centre line, mm."""
-
-HIDDEN = (3.0, 1.0)
-"""Dash and gap of a hidden edge, mm."""
+DASHES: dict[Layer, tuple[float, ...]] = {"CENTRE": (6.0, 1.5, 0.5, 1.5), "HIDDEN": (2.0, 1.0)}
+"""Dash, gap and so on of lines that are not full, mm: centre lines, hidden edges."""
 
 HEIGHT = 3.5
 """Of letters, mm (ISO 3098)."""
@@ -148,9 +146,14 @@ def width_of(text: str, height: float = HEIGHT) -> float:
 
 
 def arrow(tip: Point, towards: Point) -> Fill:
-    """An arrow's head at ``tip`` that points away from ``towards``, along x or y."""
+    """An arrow's head at ``tip`` that points away from ``towards``."""
     length, width = ARROW
     x, y = tip
+    if towards[0] != x and towards[1] != y:
+        far = math.dist(tip, towards)
+        u, v = (towards[0] - x) / far, (towards[1] - y) / far
+        foot, out = (x + length * u, y + length * v), (-v * width / 2, u * width / 2)
+        return Fill(((x, y), (foot[0] + out[0], foot[1] + out[1]), (foot[0] - out[0], foot[1] - out[1])))
     if towards[1] == y:
         back = x + (length if towards[0] > x else -length)
         return Fill(((x, y), (back, y + width / 2), (back, y - width / 2)))

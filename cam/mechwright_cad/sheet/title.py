@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from mechwright.contracts.masses import OF_PART, TOTAL, masses_of
 from mechwright.contracts.part import Part
-from mechwright.geometry import circle
+from mechwright_cad.sheet.circles import ring
 from mechwright_cad.sheet.frame import MARGIN, TITLE, Fields, ratio
 from mechwright_cad.sheet.settings import DrawingSettings
 from mechwright_cad.sheet.sheet import Sheet
@@ -66,6 +66,6 @@ def projection_sign(sheet: Sheet, *, third_angle: bool) -> None:
     )
     sheet.lines([(side - 1.5, y), (side + 8.5, y)], "CENTRE")
     for radius in (1.5, 3.0):
-        sheet.lines([tuple(point) for point in circle((end, y), radius).flatten(0.02).tolist()], "DIM")
+        sheet.lines(ring((end, y), radius), "DIM")
     sheet.lines([(end - 4, y), (end + 4, y)], "CENTRE")
     sheet.lines([(end, y - 4), (end, y + 4)], "CENTRE")

@@ -19,18 +19,24 @@ from mechwright_cad.sheet.sheet import (
     ARROW,
     DASHES,
     HEIGHT,
-    HIDDEN,
     WIDTH,
     Dimension,
     Fill,
     Item,
+    Layer,
     Sheet,
     Stroke,
     Text,
 )
 
-COLOURS = {"OUTLINE": 7, "DIM": 3, "CENTRE": 1, "HIDDEN": 4, "HATCH": 8, "TEXT": 7, "FRAME": 7}
+COLOURS = {"OUTLINE": 7, "HIDDEN": 6, "DIM": 3, "CENTRE": 1, "HATCH": 8, "TEXT": 7, "FRAME": 7}
 """Layer to colour index."""
+
+LINES: dict[Layer, tuple[str, str]] = {
+    "CENTRE": ("CENTER", "Center ____ _ ____ _"),
+    "HIDDEN": ("HIDDEN", "Hidden __ __ __ __"),
+}
+"""Layers whose lines are dashed, to the line's name and description; the second is only written if used."""
 
 STYLE = "MECHWRIGHT"
 """Of dimensions."""
@@ -42,10 +48,14 @@ def dxf(sheet: Sheet) -> bytes:
         document = new("R2010", units=units.MM)
         document.header["$MEASUREMENT"] = 1
         document.header["$LTSCALE"] = 1 / sheet.scale
-        document.linetypes.add("CENTER", [sum(DASHES), *_dashes()], description="Center ____ _ ____ _")
-        document.linetypes.add("HIDDEN", [sum(HIDDEN), HIDDEN[0], -HIDDEN[1]], description="Hidden __ __ __")
+        used = {piece.layer for item in sheet.items for piece in _pieces(item)}
+        for layer, (line, words) in LINES.items():
+            if layer == "CENTRE" or layer in used:
+                document.linetypes.add(line, [sum(DASHES[layer]), *_dashes(layer)], description=words)
         for name, width in WIDTH.items():
-            line = {"CENTRE": "CENTER", "HIDDEN": "HIDDEN"}.get(name, "CONTINUOUS")
+            if name == "HIDDEN" and name not in used:
+                continue
+            line = LINES[name][0] if name in LINES else "CONTINUOUS"
             document.layers.add(name, color=COLOURS[name], linetype=line, lineweight=round(100 * width))
         _style(document, sheet.scale)
         space = document.modelspace()
@@ -60,9 +70,13 @@ def dxf(sheet: Sheet) -> bytes:
         return of_dxf(stream.getvalue()).encode(document.output_encoding)
 
 
-def _dashes() -> list[float]:
-    dash, gap, dot, last = DASHES
-    return [dash, -gap, dot, -last]
+def _pieces(item: Item) -> tuple[Stroke | Fill | Text, ...]:
+    return item.pieces if isinstance(item, Dimension) else (item,)
+
+
+def _dashes(layer: Layer) -> list[float]:
+    """Lengths of dashes above 0 and of gaps below, in turn."""
+    return [length if k % 2 == 0 else -length for k, length in enumerate(DASHES[layer])]
 
 
 def _style(document: Drawing, scale: float) -> None:

@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator
 from mechwright_cad.sheet.fonts import ENCODING, Embedded, default_font, embedded, is_plain
 from mechwright_cad.sheet.sheet import (
     DASHES,
-    HIDDEN,
     SIZE,
     WIDTH,
     Dimension,
@@ -24,9 +23,6 @@ from mechwright_cad.sheet.sheet import (
 
 _POINT = 72 / 25.4
 """Points in a millimetre."""
-
-
-_DASHED: dict[Layer, tuple[float, ...]] = {"CENTRE": DASHES, "HIDDEN": HIDDEN}
 
 
 def pdf(sheet: Sheet, title: str = "", font: bytes = b"") -> bytes:
@@ -128,7 +124,7 @@ def _drawn(item: Item, own: Embedded | None) -> str:
 
 
 def _pen(layer: Layer) -> str:
-    dashes = " ".join(_n(one) for one in _DASHED.get(layer, ()))
+    dashes = " ".join(_n(one) for one in DASHES.get(layer, ()))
     return f"{_n(WIDTH[layer])} w [{dashes}] 0 d"
 
 

@@ -1,8 +1,5 @@
 """Numbers and sentences that every drawing has."""
 
-SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-"""ISO 5455."""
-
 PLAIN = "Ra 3.2"
 """Roughness of surfaces that have none of their own, µm."""
 

@@ -17,14 +17,12 @@ from mechwright_cad.sheet.dimensions import (
     upright,
 )
 from mechwright_cad.sheet.frame import EDGE, MARGIN, SHEETS, TITLE, frame
+from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import Sheet, Text, width_of
 from mechwright_cad.sheet.title import TitleBlock, projection_sign
-from mechwright_cad.sheet.words import SCALES, number
+from mechwright_cad.sheet.words import number
 from mechwright_cad.turned_drawing import words
 from mechwright_cad.turned_drawing.view import OVERHANG, across, side
-
-LEAST = 0.5
-"""A smaller scale than this is taken only where the largest sheet wants it."""
 
 
 @dataclass(frozen=True)

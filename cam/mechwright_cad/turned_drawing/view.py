@@ -1,10 +1,10 @@
 """Views of a turned part: its side, cut open above the axis where it has a bore, and cuts through seats."""
 
 import math
-from collections.abc import Iterator
 
 from mechwright.contracts.turned import KeySeat, Turned
 from mechwright.geometry.segments import Point
+from mechwright_cad.sheet.circles import arc
 from mechwright_cad.sheet.sheet import Sheet
 
 OVERHANG = 3.0
@@ -12,9 +12,6 @@ OVERHANG = 3.0
 
 HATCH = 2.5
 """Between lines of a cut face, mm."""
-
-_ARC = 72
-"""Straight pieces of a circle's line: 0.01 mm off a circle of 20 mm."""
 
 
 def side(sheet: Sheet, turned: Turned, left: float, axis: float) -> None:
@@ -49,12 +46,12 @@ def _mouth(seat: KeySeat, part: float) -> list[Point]:
     half, (lower, upper) = seat.width / 2, seat.round_ends(part)
     low, high = seat.at, seat.at + seat.length
     line = (
-        list(_arc((high - half, 0.0), half, -math.pi / 2, math.pi / 2))
+        list(arc((high - half, 0.0), half, -math.pi / 2, math.pi / 2))
         if upper
         else [(high, -half), (high, half)]
     )
     line += (
-        list(_arc((low + half, 0.0), half, math.pi / 2, 3 * math.pi / 2))
+        list(arc((low + half, 0.0), half, math.pi / 2, 3 * math.pi / 2))
         if lower
         else [(low, half), (low, -half)]
     )
@@ -98,9 +95,9 @@ def across(sheet: Sheet, seat: KeySeat, diameter: float, centre: Point) -> tuple
     r, half, floor = s * diameter / 2, s * seat.width / 2, s * seat.floor
     mouth = math.sqrt(max(r * r - half * half, floor * floor))
     begin = math.atan2(mouth, half)
-    arc = list(_arc(centre, r, math.pi - begin, 2 * math.pi + begin))
-    sheet.lines([*arc, (cx + half, cy + floor), (cx - half, cy + floor), arc[0]])
-    _cut_face(sheet, [*arc, (cx + half, cy + floor), (cx - half, cy + floor)])
+    rim = list(arc(centre, r, math.pi - begin, 2 * math.pi + begin))
+    sheet.lines([*rim, (cx + half, cy + floor), (cx - half, cy + floor), rim[0]])
+    _cut_face(sheet, [*rim, (cx + half, cy + floor), (cx - half, cy + floor)])
     for a, b in (
         ((cx - r - OVERHANG, cy), (cx + r + OVERHANG, cy)),
         ((cx, cy - r - OVERHANG), (cx, cy + r + OVERHANG)),
@@ -121,15 +118,3 @@ def _cut_face(sheet: Sheet, ring: list[Point]) -> None:
         for piece in shapely.get_parts(shapely.intersection(line, face)):
             if piece.geom_type == "LineString" and piece.length > 0:
                 sheet.lines(tuple(map(tuple, shapely.get_coordinates(piece).tolist())), "HATCH")
-
-
-def ring(centre: Point, radius: float) -> list[Point]:
-    """A circle's line."""
-    return list(_arc(centre, radius, 0.0, math.tau))
-
-
-def _arc(centre: Point, radius: float, start: float, end: float) -> Iterator[Point]:
-    count = math.ceil(_ARC * (end - start) / math.tau)
-    for k in range(count + 1):
-        angle = start + (end - start) * k / count
-        yield centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)

@@ -102,6 +102,8 @@ def joined(part: Part) -> Part:
     """
     if part.turned is not None and part.turned.threads:
         return replace(part, build=part.turned.screwed.solid)
+    if part.free_form is not None:
+        return replace(part, free_form=part.free_form.joined)
     for bore in [feature for feature in part.features if isinstance(feature, Bore)]:
         nominal = [
             detail.diameter

@@ -16,6 +16,7 @@ from mechwright.contracts.details import Detail
 from mechwright.contracts.file_names import DEVICES
 from mechwright.contracts.fits import Fit
 from mechwright.contracts.fitting_marks import FittingMark
+from mechwright.contracts.free_form import FreeForm
 from mechwright.contracts.guard import later
 from mechwright.contracts.measure import Measure
 from mechwright.contracts.result import maker
@@ -236,7 +237,7 @@ class Part:
     machined
         Features in the order of the drawing; empty means: those of the outline.
     build
-        Makes the solid of a part that is no plate. Default: what ``turned`` or ``bought`` has.
+        Makes the solid of a part that is no plate. Default: what ``turned``, ``bought`` or ``free_form`` has.
     details
         Chamfers, threads and engravings of a plate's top face.
     turned
@@ -253,11 +254,14 @@ class Part:
         Names of its holes with a fit that may stay empty: places of a pin that is in one of them.
     measures
         Sizes that tell whether it is right, beside its overall sizes and its bores: they stand on the sheet.
+    free_form
+        What a part looks like that is neither a plate nor turned: it gets a drawing of it.
 
     Raises
     ------
     GeometryError
-        It has no solid or more than one, a plate has no thickness, or it is turned and bought at once.
+        It has no solid or more than one, a plate has no thickness, or it is two of turned, bought and of free
+        form at once.
     """
 
     name: str
@@ -275,12 +279,15 @@ class Part:
     play: float = 0.0
     vacant: tuple[str, ...] = ()
     measures: tuple[Measure, ...] = ()
+    free_form: FreeForm | None = None
 
     def __post_init__(self) -> None:
         check_name(self.name, "part name")
-        if self.turned is not None and self.bought is not None:
-            raise GeometryError(f"part {self.name} is turned or bought, not both")
-        if self.outline is None and self.build is None:
+        if sum(form is not None for form in (self.turned, self.bought, self.free_form)) > 1:
+            raise GeometryError(f"part {self.name} is turned, bought or of free form, one of them alone")
+        if self.free_form is not None:
+            object.__setattr__(self, "build", self.free_form)
+        elif self.outline is None and self.build is None:
             form = self.turned or self.bought
             if form is not None and form.shape is not None:
                 object.__setattr__(self, "build", form.shape.solid)

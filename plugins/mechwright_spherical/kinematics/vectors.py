@@ -4,6 +4,8 @@ All arrays have the shape (3, ...): one row per component, so that thousands of 
 worked on row by row. Axes and pins are unit vectors; angles are in rad.
 """
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -29,6 +31,11 @@ def vector(values: ArrayLike) -> Array:
     if not length > LEAST_LENGTH:
         raise GeometryError(f"{found.tolist()} is no direction; give a vector away from the centre")
     return np.asarray(found / length, dtype=float)
+
+
+def direction(angle: float) -> Array:
+    """The direction in a link's frame at an arc, rad, from its first joint."""
+    return np.array([math.cos(angle), math.sin(angle), 0.0])
 
 
 def dot(a: Array, b: Array) -> Array:

@@ -11,17 +11,17 @@ from dataclasses import dataclass
 
 from mechwright import DesignError, Flange, Foot, MountingError, kept
 from mechwright.contracts.finding import Change
-from mechwright.contracts.turned import Groove, Step, Turned, tube
+from mechwright.contracts.turned import Groove, Length, Step, Turned, tube
 from mechwright.standards.bushes import Bush, bush_for, bushes
 from mechwright.standards.circlips import Circlip, shaft_circlip, shaft_circlips
 from mechwright.standards.couplings import BORES, couplings
 from mechwright.standards.screws import screw_sizes
-from mechwright_spherical.kinematics.drive import train_of
+from mechwright_spherical.kinematics.drive import Train, train_of
 from mechwright_spherical.kinematics.linkage import linkage_of
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import motor_opposite, shells_of
 from mechwright_spherical.parts.hardware import StandTable
-from mechwright_spherical.parts.places import gear_span
+from mechwright_spherical.parts.places import carried_by, gear_cones, gear_span
 from mechwright_spherical.parts.shells import FLANGE, RISE, Shells, Span
 from mechwright_spherical.parts.stand import FLANGE_SCREWS, MOUNTING_SCREWS
 
@@ -42,6 +42,15 @@ LEAST_SCREW = 5.0
 
 HEAD = 1.25
 """Least diameter of a screw's head over that of its hole."""
+
+FACE = 0.1
+"""Deviation of the end faces of hubs and bosses from their places, plus and minus, mm."""
+
+LOADED = "end of the shaft to the loaded wall of the groove"
+"""The length of a shaft that decides its float."""
+
+WALL_LIMITS = (0.0, 0.1)
+"""Limits of that length, mm."""
 
 FAR = {"ground": "far-ground", "crank": "far-crank"}
 """Frames of both, turned half a turn so that x is the far end of the input's axis."""
@@ -80,6 +89,16 @@ class Hub:
         """Of the hub, mm, at least."""
         return self.outside + 2 * WALL
 
+    def free_bore(self, params: SphericalParams) -> float:
+        """How much of the longest bore that its bushes share they leave free, mm."""
+        low, high = self.span
+        inside = [bush.length for bush, at in self.bushes if low <= at < high]
+        others = [one for one in self.bushes if not low <= one[1] < high]
+        shells = shells_of(params)
+        beside = shells.links["ground-2" if motor_opposite(params) else "ground"]
+        rooms = [beside[1] - beside[0] - bush.length for bush, _ in others]
+        return max(high - low - sum(inside), *rooms, 0.0)
+
     @property
     def seat(self) -> float:
         """Radius at which the ring begins, mm."""
@@ -117,18 +136,50 @@ def shaft_start(params: SphericalParams, shells: Shells, name: str) -> float:
 
 
 def spacer_room(params: SphericalParams, name: str) -> Span:
-    """Between which radii the spacer beside a hub is, mm; below 0 beyond the centre."""
+    """Between which radii the spacer beside a hub is, mm; below 0 beyond the centre.
+
+    Of a five-bar only ``b0`` has one: at the input the pinion reaches to its hub.
+    """
     shells, over = shells_of(params), bracket_of(params)
     if name == "a0" and motor_opposite(params):
         return -shells.links["crank"][0], -shells.links["ground-2"][1]
     if over is None:
         link = shells.links["crank" if name == "a0" else "rocker"]
         return link[1], link[1] + params.hardware.gap
-    if name == "b0":
-        return shells.links["arm"][1], shells.links["ground"][0]
-    train = train_of(linkage_of(params), params.drive)
-    assert train is not None  # noqa: S101 - else there is nothing over the gears
-    return gear_span(params, shells, train)[1] * math.cos(train.pinion), over[0]
+    return shells.links["arm"][1], shells.links["ground"][0]
+
+
+def gear_ends(params: SphericalParams, shells: Shells, train: Train, name: str) -> Span:
+    """Between which distances from the centre a gear is along its axis, mm, with its hub.
+
+    With a motor's flange the hub of the pinion reaches to the arc over the gears, those of wheel and idler to
+    the ground, so that no spacers are between them.
+    """
+    half = gear_cones(train)[name][1]
+    low, high = (end * math.cos(half) for end in gear_span(params, shells, train))
+    over = bracket_of(params)
+    if over is None:
+        return low, high
+    return (low, over[0] - AIR) if name == "pinion" else (shells.links["ground"][1] + AIR, high)
+
+
+def idler_ring(params: SphericalParams, shells: Shells, train: Train) -> tuple[Circlip, float] | None:
+    """The ring on the idler's stud and the distance at which it begins, mm; None without a motor's flange."""
+    if bracket_of(params) is None:
+        return None
+    ring = shaft_circlip(params.hardware.pin_diameter)
+    return ring, gear_ends(params, shells, train, "idler")[1] + AIR
+
+
+def stud_form(params: SphericalParams, shells: Shells, train: Train) -> Turned:
+    """The idler's stud from the ground outwards, with the groove of its ring where it has one."""
+    low, high = shells.pins["idler"]
+    held, diameter = idler_ring(params, shells, train), params.hardware.pin_diameter
+    if held is None:
+        return Turned((Step(diameter, high - low),))
+    ring, seat = held
+    groove = Groove(seat - low, ring.width, ring.groove, ring.tolerance)
+    return Turned((Step(diameter, seat + ring.width + ring.edge - low),), grooves=(groove,))
 
 
 def sizes() -> list[float]:
@@ -190,11 +241,18 @@ def shaft_form(params: SphericalParams, shells: Shells, name: str) -> Turned:
     if ring is None:
         return Turned((step,))
     groove = Groove(hub.seat - low, ring.width, ring.groove, ring.tolerance)
-    return Turned((step,), grooves=(groove,))
+    if bracket_of(params) is not None:
+        return Turned((step,), grooves=(groove,))
+    wall = Length(LOADED, 0.0, groove.at + groove.width, *WALL_LIMITS)
+    link = carried_by(params, name)
+    note = f"Bond {link} flush with the end from which the groove is measured"
+    return Turned((step,), grooves=(groove,), lengths=(wall,), note=note)
 
 
 def spacer_form(params: SphericalParams, name: str) -> Turned | None:
-    """The spacer between a link or gear and its hub; None where the gap is too narrow for one."""
+    """The spacer between a link and its hub; None where the gap is too narrow for one, or a gear is there."""
+    if name == "a0" and bracket_of(params) is not None:
+        return None
     low, high = spacer_room(params, name)
     length, bore = high - low - AIR, params.hardware.pin_diameter + 0.1
     return tube(bore, hubs_of(params)["a0"].outside, length) if length >= 0.5 else None

@@ -1,18 +1,20 @@
 """The parts of a design: links and pins as solids, base plate and flat strips as plates."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
 
 from mechwright import Colour, Instance, Part, Step, Turned
-from mechwright.contracts.fits import shaft_fit
+from mechwright.contracts.free_form import FormBore, FreeForm
 from mechwright.contracts.holes import threaded
 from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright_spherical.kinematics.drive import Train, train_of
 from mechwright_spherical.kinematics.linkage import Linkage, linkage_of
 from mechwright_spherical.parameters import SphericalParams
-from mechwright_spherical.parts.axis_parts import axis_parts
+from mechwright_spherical.parts.axis_parts import axis_parts, pin_frames
+from mechwright_spherical.parts.bores import coupler_bores, gear_bore, ground_bores, link_bores
+from mechwright_spherical.parts.drawn import free_form
 from mechwright_spherical.parts.flat import strip, strip_outline
 from mechwright_spherical.parts.frame import ground_arcs, shells_of
 from mechwright_spherical.parts.mount import hubs_of, thread_of
@@ -43,35 +45,33 @@ def parts_of(params: SphericalParams) -> tuple[Part, ...]:
     linkage, shells = linkage_of(params), shells_of(params)
     train = train_of(linkage, params.drive)
     return (
-        *_links(params, linkage, shells),
-        *_pins(params, shells, train),
+        *_links(params, linkage, shells, train),
+        *_pins(params, shells),
         *_clamps(params, shells),
-        *_gears(params, train),
         *axis_parts(params),
         *_plates(params, linkage, shells),
     )
 
 
 def _solid(
-    name: str,
-    params: SphericalParams,
-    body: str,
-    kind: str,
-    *,
-    shown: bool = True,
-    turned: Turned | None = None,
+    name: str, params: SphericalParams, body: str, kind: str, form: FreeForm, *, shown: bool = True
 ) -> Part:
     hardware = params.hardware
     return Part(
         name,
         None,
         0.0,
-        hardware.pin_material if kind in {"pin", "gear"} else hardware.material,
+        hardware.pin_material if kind == "gear" else hardware.material,
         instances=(Instance(body),) if shown else (),
         colour=COLOURS[kind],
-        build=_builder(shape_of(params), name),
-        turned=turned,
+        free_form=form,
+        vacant=_vacant(form),
     )
+
+
+def _vacant(form: FreeForm) -> tuple[str, ...]:
+    """Bores of the coupler that are places of one pin: it is in one of them."""
+    return tuple(one.name for one in form.bores if one.name[:2] in {"a-", "c-"})
 
 
 def shape_of(params: SphericalParams) -> SphericalParams:
@@ -95,40 +95,48 @@ def _build(params: SphericalParams, name: str) -> "cq.Solid":
     # The kernel is imported when a solid is wanted.
     from mechwright_spherical.parts import links
 
-    return links.solid(params, name)
+    return links.body(params, name)
 
 
-def _links(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:
-    yield _solid("ground", params, "ground", "ground")
-    other = second_size(linkage, shells)
+def _links(params: SphericalParams, linkage: Linkage, shells: Shells, train: Train | None) -> Iterator[Part]:
+    shape, other = shape_of(params), second_size(linkage, shells)
     second = linkage.shown.number == 2
-    for name in link_arcs(linkage):
+
+    def form(name: str, bores: Iterable[FormBore]) -> FreeForm:
+        return free_form(params, name, _builder(shape, name), tuple(bores))
+
+    bores = ground_bores(shape, shells, linkage, train)
+    yield _solid("ground", params, "ground", "ground", form("ground", bores))
+    for name, angle in link_arcs(linkage).items():
         if name == "ground":
             continue
-        yield _solid(name, params, name, name, shown=not (second and name in other))
+        own = form(name, link_bores(params, shells, name, angle))
+        yield _solid(name, params, name, name, own, shown=not (second and name in other))
         if name in other:
-            yield _solid(f"{name}-n", params, name, name, shown=second)
-    yield _solid("coupler", params, "coupler", "coupler")
+            own = form(f"{name}-n", link_bores(params, shells, name, other[name]))
+            yield _solid(f"{name}-n", params, name, name, own, shown=second)
+    bores = coupler_bores(params, shells, linkage)
+    yield _solid("coupler", params, "coupler", "coupler", form("coupler", bores))
+    if train is not None:
+        for name, (body, _) in gear_cones(train).items():
+            own = form(name, [gear_bore(params, shells, train, name)])
+            yield _solid(name, params, body, "gear", own)
 
 
-def _pins(params: SphericalParams, shells: Shells, train: Train | None) -> Iterator[Part]:
-    diameter, spans = params.hardware.pin_diameter, shells.pins
-
-    def turned(span: str) -> Turned:
-        low, high = spans[span]
-        return Turned((Step(diameter, high - low, shaft_fit(diameter, "h6")),))
-
+def _pins(params: SphericalParams, shells: Shells) -> Iterator[Part]:
+    hardware, spans, frames = params.hardware, shells.pins, pin_frames(params)
+    diameter, steel = hardware.pin_diameter, hardware.pin_material
     loose = {f"shaft-{name}" for name in hubs_of(params)}
-    places = pin_places(params)
-    second = linkage_of(params).shown.number == 2
-    for name, (span, body, _) in places.items():
-        if name in loose:
-            continue
-        shown = second if name.endswith("-n") else not (second and f"{name}-n" in places)
-        yield _solid(name, params, body, "pin", shown=shown, turned=turned(span))
-    if train is not None and train.idler_axis is not None:
-        yield _solid("shaft-idler", params, "idler", "pin", turned=turned("idler"))
-    yield _solid("tool", params, "coupler", "pin", turned=tool_of(params, shells))
+    keys = {name: span for name, (span, _, _) in pin_places(params).items() if name not in loose}
+    for name, span in keys.items():
+        low, high = spans[span]
+        at = (Instance(name, low),) if name in frames else ()
+        turned = Turned((Step(diameter, high - low),))
+        yield Part(name, None, 0.0, steel, at, COLOURS["pin"], turned=turned)
+    form, at = tool_of(params, shells), (Instance("tool", spans["tool"][0]),)
+    # A tip that is longer than the standoff begins in the coupler's bore.
+    free = max(form.steps[0].length - hardware.standoff, 0.0)
+    yield Part("tool", None, 0.0, steel, at, COLOURS["pin"], turned=form, play=free)
 
 
 def _clamps(params: SphericalParams, shells: Shells) -> Iterator[Part]:
@@ -145,12 +153,6 @@ def _clamps(params: SphericalParams, shells: Shells) -> Iterator[Part]:
         at = Instance(f"coupler-{name}", -(outer + stud_length(params) + head[1]))
         yield stud_part(f"pin-{name}", params.hardware.pin_diameter, stud_length(params), head, clamp, at)
     yield from screw_parts("clamp", clamp, [Instance(f"coupler-{name}", -seat) for name in names])
-
-
-def _gears(params: SphericalParams, train: Train | None) -> Iterator[Part]:
-    if train is not None:
-        for name, (body, _) in gear_cones(train).items():
-            yield _solid(name, params, body, "gear")
 
 
 def _plates(params: SphericalParams, linkage: Linkage, shells: Shells) -> Iterator[Part]:

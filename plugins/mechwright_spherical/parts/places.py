@@ -2,14 +2,16 @@
 
 import math
 
-from mechwright import Step, Turned
-from mechwright.contracts.fits import shaft_fit
+import numpy as np
+
+from mechwright import Array, Step, Turned
+from mechwright_spherical.kinematics.chain import orientation
 from mechwright_spherical.kinematics.drive import Train
 from mechwright_spherical.kinematics.linkage import Linkage, linkage_of
 from mechwright_spherical.kinematics.vectors import arc
 from mechwright_spherical.parameters import SphericalParams
 from mechwright_spherical.parts.frame import shells_of
-from mechwright_spherical.parts.seats import clamped
+from mechwright_spherical.parts.seats import Seat, clamped, seats_of
 from mechwright_spherical.parts.shells import Shells
 
 ONE_SIZE = 0.02
@@ -65,13 +67,37 @@ def pin_places(params: SphericalParams) -> dict[str, tuple[str, str, float]]:
     return found
 
 
+def path_point(linkage: Linkage, frame: Array) -> Array:
+    """The path point in the coupler's frame."""
+    return np.asarray(frame.T @ linkage.phases[0].at_reference.p[0][:, 0])
+
+
+def in_ground(linkage: Linkage, axis: Array) -> Array:
+    """A direction in space, in the ground's frame."""
+    loop = linkage.shown.loop
+    return np.asarray(orientation(loop.a0, loop.b0).T @ axis)
+
+
+def coupler_seats(linkage: Linkage, frame: Array) -> tuple[Seat, Seat]:
+    """Where the coupler takes its two pins, in its frame."""
+    a, c = (
+        Seat(seat.name, frame.T @ seat.axis, tuple(frame.T @ place for place in seat.places))
+        for seat in seats_of(linkage)
+    )
+    return a, c
+
+
 def tool_of(params: SphericalParams, shells: Shells) -> Turned:
     """The tool in the coupler, from its point on the sphere outwards."""
     low, high = shells.pins["tool"]
     diameter = params.hardware.pin_diameter
     tip = min(diameter, (high - low) / 2)
-    fit = shaft_fit(diameter, "h6")
-    return Turned((Step(diameter, tip, start=0.0), Step(diameter, high - low - tip, fit)))
+    return Turned((Step(diameter, tip, start=0.0), Step(diameter, high - low - tip)))
+
+
+def carried_by(params: SphericalParams, shaft: str) -> str:
+    """The link on the shaft ``a0`` or ``b0``."""
+    return "crank" if shaft == "a0" else "arm" if params.kind == "five-bar" else "rocker"
 
 
 def gear_cones(train: Train) -> dict[str, tuple[str, float]]:

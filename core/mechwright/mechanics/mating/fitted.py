@@ -121,6 +121,8 @@ def _part(part: Part, fits: dict[str, Fit]) -> Part:
         return part
     if part.turned is not None:
         return replace(part, turned=_turned(part.turned, fits), build=None)
+    if part.free_form is not None:
+        return replace(part, free_form=part.free_form.with_fits(fits))
     for name, fit in fits.items():
         old = hole(part, name)
         part = exchanged(part, old, replace(old, diameter=fit.middle, fit=fit))

@@ -18,12 +18,16 @@ from mechwright.arrays import Array
 from mechwright.contracts.bodies import Placed
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import EXACT, Fit
+from mechwright.contracts.joint import Vector
 from mechwright.contracts.part import Bore, Part
 from mechwright.contracts.shape import Revolve, Shape
 from mechwright.contracts.turned import Turned
 
 PARALLEL = 1e-9
 """By how much less than 1 the product of two unit vectors is that are parallel."""
+
+UPRIGHT: Vector = (0.0, 0.0, 1.0)
+"""Axis of the faces of plates, turned and bought parts in their own coordinates."""
 
 NEAR = 0.05
 """How far apart axes of faces are that go into each other, mm, at most."""
@@ -44,19 +48,23 @@ ALIKE = 0.3
 
 @dataclass(frozen=True)
 class Face:
-    """A round face of a part in the part's own coordinates, mm; its axis is upright."""
+    """A round face of a part in the part's own coordinates, mm.
+
+    ``low`` and ``high`` are measured from its point ``centre`` along its axis, the unit vector ``direction``.
+    """
 
     face: str
-    centre: tuple[float, float]
+    centre: Vector
     low: float
     high: float
     diameter: float
     inside: bool
     fit: Fit | None
     threaded: bool
+    direction: Vector = UPRIGHT
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Round(Face):
     """The same where it stands: a point of its axis in the assembly, and the axis."""
 
@@ -101,24 +109,31 @@ class Match:
 
 
 def rounds_of(body: Placed, sample: int) -> list[Round]:
-    """The round faces of a plate, or of an upright part, where it stands."""
+    """The round faces of a plate, of an upright part, or of one of free form, where it stands."""
     turn, place = body.poses.rotation[sample], body.poses.position[sample]
+    lift = body.instance.z * turn[:, 2]
     found = []
     for own in faces_of(body.part):
-        at = turn @ np.array((*own.centre, body.instance.z)) + place
-        found.append(Round(**vars(own), at=at, axis=turn[:, 2]))
+        at, axis = turn @ np.array(own.centre) + lift + place, turn @ np.array(own.direction)
+        found.append(Round(**vars(own), at=at, axis=axis))
     return found
 
 
 def faces_of(part: Part) -> Iterator[Face]:
-    """The round faces of a plate, of a turned part, or of a bought one."""
+    """The round faces of a plate, of a turned part, of a bought one, or of one of free form."""
+    if part.free_form is not None:
+        for hole in part.free_form.bores:
+            yield Face(
+                hole.name, hole.start, 0.0, hole.length, hole.diameter, True, hole.fit, False, hole.axis
+            )
+        return
     if part.outline is not None:
         threads = [detail.centre for detail in part.details if isinstance(detail, Thread)]
         for bore in part.features:
             if isinstance(bore, Bore):
                 top = part.thickness - bore.top
                 low, threaded = top - bore.depth, bore.centre in threads
-                yield Face(bore.name, bore.centre, low, top, bore.diameter, True, bore.fit, threaded)
+                yield Face(bore.name, (*bore.centre, 0.0), low, top, bore.diameter, True, bore.fit, threaded)
         return
     shape = getattr(part.build, "__self__", None)
     if not isinstance(shape, Shape):
@@ -132,10 +147,19 @@ def faces_of(part: Part) -> Iterator[Face]:
             radii, heights = zip(*piece.profile, strict=True)
             outer = 2 * max(radii)
             yield Face(
-                "outside", piece.axis, min(heights), max(heights), outer, False, _of_size(outer, fits), False
+                "outside",
+                (*piece.axis, 0.0),
+                min(heights),
+                max(heights),
+                outer,
+                False,
+                _of_size(outer, fits),
+                False,
             )
             for diameter, low, high in _bores(piece):
-                yield Face("inside", piece.axis, low, high, diameter, True, _of_size(diameter, fits), False)
+                yield Face(
+                    "inside", (*piece.axis, 0.0), low, high, diameter, True, _of_size(diameter, fits), False
+                )
 
 
 def _of_size(diameter: float, fits: Sequence[Fit]) -> Fit | None:
@@ -144,7 +168,7 @@ def _of_size(diameter: float, fits: Sequence[Fit]) -> Fit | None:
 
 
 def _turned(turned: Turned) -> Iterator[Face]:
-    axis = (0.0, 0.0)
+    axis = (0.0, 0.0, 0.0)
     for number, (low, step) in enumerate(zip(turned.starts, turned.steps, strict=True), start=1):
         if step.start is None:
             yield Face(f"step-{number}", axis, low, low + step.length, step.diameter, False, step.fit, False)
