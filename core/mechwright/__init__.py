@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.measure import Measure
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
-    from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
+    from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Post, Spindle
     from mechwright.contracts.named import Named
     from mechwright.contracts.parameters import FIRST, FITTED, GIVEN, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
@@ -104,7 +104,7 @@ _HOMES = {
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.measure": "Measure",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
-    "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
+    "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Post Spindle",
     "mechwright.contracts.named": "Named",
     "mechwright.contracts.parameters": "FIRST FITTED GIVEN Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",

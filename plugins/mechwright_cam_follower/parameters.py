@@ -4,10 +4,11 @@ import math
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
-from mechwright import FIRST, FITTED, GIVEN, MaterialName, Parameters
+from mechwright import FIRST, FITTED, GIVEN, DesignError, MaterialName, Parameters
 from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
+from mechwright.standards.springs import extension_spring
 from mechwright.units import Millimetres, RevPerMin, Unit
 from mechwright_cam_follower.defaults.proportions import FOLLOWS, fitted, followed, left_out
 
@@ -30,6 +31,20 @@ LawName = Literal[
     "polynomial",
     "table",
 ]
+def _spring(text: str) -> str:
+    """Refuse the name of a spring that is in no table."""
+    if text != AUTO:
+        try:
+            extension_spring(text)
+        except DesignError as error:
+            raise ValueError(f'{error}; or "{AUTO}"') from error
+    return text
+
+
+AUTO = "auto"
+"""In place of a spring's name: the program chooses."""
+
+SpringName = Annotated[str, Field(max_length=40), AfterValidator(_spring)]
 Angle = Annotated[float, Field(ge=LEAST_ANGLE, le=360), Unit("deg")]
 Lift = Annotated[float, Field(ge=0, le=300), Unit("mm")]
 Swing = Annotated[float, Field(ge=0, le=120), Unit("deg")]
@@ -73,7 +88,7 @@ ONLY: dict[str, tuple[str, str]] = {
 """Field to the choice that it belongs to."""
 
 SPRINGS = ("spring_preload", "spring_rate", "spring_torque", "spring_stiffness")
-"""What a conjugate pair has no use for."""
+"""What a conjugate pair, or a follower whose spring is bought, has no use for."""
 
 
 class CamParams(Parameters):
@@ -227,6 +242,13 @@ class CamParams(Parameters):
     spring_stiffness: Annotated[float, Field(ge=0, le=1e4), Unit("N*m/rad")] | None = Field(
         None, description="Rate of a lever's spring: its torque over the swing. Default: 4."
     )
+    spring: SpringName | None = Field(
+        None,
+        description=(
+            'Extension spring to buy: "auto", or wire x outside x free length such as "1.25x12.5x50", mm, in '
+            "place of the other keys of a spring. Default: a spring of your own with those."
+        ),
+    )
     thickness: Millimetres = Field(
         10.0, ge=1, le=100, description="Thickness of a cam, and length of a roller.", json_schema_extra=FIRST
     )
@@ -323,6 +345,12 @@ class CamParams(Parameters):
         for name in SPRINGS:
             if self.conjugate and getattr(self, name) is not None:
                 raise ValueError(f"{name}: conjugate cams need no spring; leave it out")
+            if self.spring is not None and getattr(self, name) is not None:
+                raise ValueError(f"{name}: the spring that is bought has its own; leave it out, or spring")
+        if self.conjugate and self.spring is not None:
+            raise ValueError("spring: conjugate cams need none; leave it out")
+        if self.translating and self.spring is not None:
+            raise ValueError("spring is for levers; a slide states spring_preload and spring_rate")
         keyed_together(self)
 
     def value(self, name: str) -> float:

@@ -5,6 +5,8 @@ Glossary
 spindle
     An axis about which a body of the motion turns in the frame. It is upright, and goes through the body's
     origin.
+post
+    An upright pin of the mechanism in the lower bearing plate.
 hub
     What sits on the spindle's shaft and turns with it: one part, or several on each other with one bore.
 share
@@ -16,6 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.contracts.finding import Change
+from mechwright.contracts.turned import Step
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 
@@ -117,6 +120,40 @@ class Spindle:
     origin: float = 0.0
 
 
+@dataclass(frozen=True)
+class Post:
+    """An upright pin of the mechanism that stands in the lower bearing plate, as of a spring.
+
+    Parameters
+    ----------
+    name
+        Of its part.
+    point
+        Where it stands in the ground, mm.
+    diameter
+        From the plate up to ``low``, mm.
+    low, head
+        Height, mm, at which its upper end begins, and the steps of that.
+    holds
+        Bodies of the motion that go around its upper end.
+    key
+        The design-file key without which there is no such pin.
+    """
+
+    name: str
+    point: Point
+    diameter: float
+    low: float
+    head: tuple[Step, ...]
+    holds: frozenset[str] = frozenset()
+    key: str = ""
+
+    @property
+    def high(self) -> float:
+        """Height of its upper end, mm."""
+        return self.low + sum(step.length for step in self.head)
+
+
 _ANGLES = (180.0, 90.0, -90.0, 135.0, -135.0, 45.0, -45.0, 0.0)
 """To which parts are turned to get them out of the way, degrees, best first."""
 
@@ -137,6 +174,11 @@ class Mounting:
     turning_keys
         The design-file keys, in degrees, that turn parts of the mechanism about a spindle, out of the way of
         others.
+    posts
+        Pins that stand in the lower bearing plate.
+    fastest
+        Speed of the input, rev/min, above which the mechanism comes apart, as a follower that leaves its cam,
+        and the design-file key of the speed for which it is made; None for none.
 
     Raises
     ------
@@ -149,6 +191,8 @@ class Mounting:
     gap: tuple[str, float] | None = None
     own_shafts: tuple[str, ...] = ()
     turning_keys: tuple[str, ...] = ()
+    posts: tuple[Post, ...] = ()
+    fastest: tuple[float, str] | None = None
 
     def __post_init__(self) -> None:
         if sum(spindle.drives for spindle in self.spindles) != 1:

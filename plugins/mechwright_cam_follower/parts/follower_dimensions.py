@@ -88,3 +88,13 @@ def rails_of(m: Mechanism) -> Rails:
     left = complex(m.offset + low - m.given.guide_clearance - width, foot)
     right = complex(m.offset + high + m.given.guide_clearance, foot)
     return Rails(width, m.given.guide_length, (left, right))
+
+
+def follower_foot(m: Mechanism) -> float:
+    """Height of the underside of bar, lever and rails, mm."""
+    return 0.0 if m.flat else m.given.thickness + m.given.axial_gap
+
+
+def follower_depth(m: Mechanism) -> float:
+    """Thickness of bar, lever and rails, mm."""
+    return m.given.thickness if m.flat else m.given.follower_thickness

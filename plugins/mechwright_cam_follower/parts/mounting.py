@@ -2,11 +2,13 @@
 
 from dataclasses import replace
 
-from mechwright import Hub, Mounting, MountingError, Spindle
+from mechwright import Hub, Mounting, MountingError, Post, Spindle
 from mechwright_cam_follower.kinematics.extremes import face_ends, load_peak
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.kinematics.motion import CAM, FOLLOWER
-from mechwright_cam_follower.parts.parts import follower_depth, follower_foot, second_foot
+from mechwright_cam_follower.parts.follower_dimensions import follower_depth, follower_foot
+from mechwright_cam_follower.parts.parts import second_foot
+from mechwright_cam_follower.parts.spring_parts import SPRING, spring_place
 
 
 def mounting_of(m: Mechanism) -> Mounting:
@@ -36,6 +38,27 @@ def mounting_of(m: Mechanism) -> Mounting:
     return Mounting(
         (replace(cam, force=force), replace(_pivot(m), torque=arm, force=force)),
         ("parameters.axial_gap", m.given.axial_gap),
+        posts=_posts(m),
+        fastest=None if m.given.spring is None else (m.given.speed, "parameters.speed"),
+    )
+
+
+def _posts(m: Mechanism) -> tuple[Post, ...]:
+    """The pin that the spring pulls at; none without a spring that is bought."""
+    place = spring_place(m)
+    if place is None or place.held.post is None:
+        return ()
+    at, held = place.stands, place.held
+    return (
+        Post(
+            "spring-post",
+            (at.real, at.imag),
+            held.post,
+            place.z,
+            held.head,
+            frozenset({SPRING}),
+            "parameters.spring",
+        ),
     )
 
 

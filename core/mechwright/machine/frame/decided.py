@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mechwright.contracts.mounting import Post
 from mechwright.machine.frame.bracket import Bracket
 from mechwright.machine.frame.coupled import Motor
 from mechwright.machine.frame.seats import Seat
@@ -35,6 +36,8 @@ class Frame:
         The rectangle of the columns.
     bracket
         Of the motor; None without one.
+    posts
+        Pins of the mechanism in the lower bearing plate.
     """
 
     seats: tuple[Seat, ...]
@@ -42,6 +45,7 @@ class Frame:
     thickness: float
     standing: Standing
     bracket: Bracket | None
+    posts: tuple[Post, ...] = ()
 
     @property
     def under(self) -> float:

@@ -40,6 +40,7 @@ from mechwright.machine.frame.plates import (
     thickness_for,
 )
 from mechwright.machine.frame.play import coupling_stack, shaft_stacks
+from mechwright.machine.frame.posts import add_post, post_disc, post_faults, post_hole
 from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
@@ -91,12 +92,14 @@ def decided(
     space = space_of(parts, motion)
     levels = levels_of(space, chosen, keys, thickness)
     faults = [fault for seat in chosen for fault in in_the_way(seat, levels, space, mounting)]
+    faults += [fault for post in mounting.posts for fault in post_faults(post, levels, space)]
     if faults:
         return faults
     held = [
         Disc(seat.spindle.point, seat.bearing.outside / 2 + wall(seat.bearing.outside, keys.plate_material))
         for seat in chosen
     ]
+    held += map(post_disc, mounting.posts)
     if keys.cover:
         x0, y0, x1, y1 = space.region.bounds
         held += [Disc(corner, CLEARANCE) for corner in ((x0, y0), (x1, y1))]
@@ -120,7 +123,7 @@ def decided(
     standing = stand(region, held, PILLAR / 2, EDGE)
     if keys.guard:
         standing = widened(standing, space.region.bounds)
-    return Frame(tuple(chosen), levels, thickness, standing, bracket)
+    return Frame(tuple(chosen), levels, thickness, standing, bracket, mounting.posts)
 
 
 def _one_plate() -> Finding:
@@ -187,16 +190,19 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     """All parts where they stand."""
     kit = Kit()
     levels, thickness, standing, bracket = frame.levels, frame.thickness, frame.standing, frame.bracket
-    posts = columns(standing.corners)
+    corners = columns(standing.corners)
     lower = [bearing_hole(seat, thickness) for seat in frame.seats]
     upper = list(lower)
-    for post in posts:
-        post.place(kit)
-        hole = register(post.name, post.point, thickness, spigot=post.spigot)
+    for column in corners:
+        column.place(kit)
+        hole = register(column.name, column.point, thickness, spigot=column.spigot)
         lower.append(hole)
         upper.append(hole)
+    lower += [post_hole(post, thickness) for post in frame.posts]
     if bracket is not None:
         lower += pillar_holes(bracket, thickness)
+    for post in frame.posts:
+        add_post(kit, post, frame.under)
     kit.places["lower-carrier"] = Place()
     kit.places["upper-carrier"] = Place(rotation=OVER)
     material = keys.plate_material
@@ -208,7 +214,7 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     for seat in frame.seats:
         shaft = add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
         kit.stacks += shaft_stacks(seat, shaft, levels)
-    _add_columns(kit, frame, keys, posts)
+    _add_columns(kit, frame, keys, corners)
     if bracket is not None:
         body = frame.driver.spindle.body
         add_bracket(kit, bracket, body, (levels.lower, frame.under), material)
