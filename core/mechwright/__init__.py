@@ -40,7 +40,16 @@ if TYPE_CHECKING:
     from mechwright.contracts.materials import MaterialName, material
     from mechwright.contracts.measure import Measure
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
-    from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Post, Spindle
+    from mechwright.contracts.mounting import (
+        Flange,
+        Foot,
+        GroundPlate,
+        Hub,
+        Mounting,
+        MountingError,
+        Post,
+        Spindle,
+    )
     from mechwright.contracts.named import Named
     from mechwright.contracts.parameters import FIRST, FITTED, GIVEN, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
@@ -165,6 +174,7 @@ __all__ += [
     "Load",
     "Motion",
     "Poses",
+    "Post",
     "Rates",
     "Scalar",
     "Trace",

@@ -31,6 +31,8 @@ LawName = Literal[
     "polynomial",
     "table",
 ]
+
+
 def _spring(text: str) -> str:
     """Refuse the name of a spring that is in no table."""
     if text != AUTO:

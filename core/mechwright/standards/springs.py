@@ -112,8 +112,8 @@ class ExtensionSpring:
             f"at {self.longest:.4g} mm; within {SCATTER:.0%} of these another maker's size serves as well"
         )
         words = (
-            f"extension spring, wire {self.wire:g}, outside {self.outside:g}, {self.free:g} mm inside the full "
-            "hooks, EN 10270-1 SM"
+            f"extension spring, wire {self.wire:g}, outside {self.outside:g}, {self.free:g} mm inside the "
+            "full hooks, EN 10270-1 SM"
         )
         return Bought(words, STANDARD, self.mass, Shape((coils, *hooks), (room,)), note, stretched=True)
 

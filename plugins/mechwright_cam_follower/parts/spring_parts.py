@@ -91,7 +91,9 @@ def spring_parts(m: Mechanism) -> list[Part]:
     z = place.z + held.height
     return [
         Part(SPRING_PIN, None, 0, STEEL, (Instance(SPRING_PIN, follower_foot(m)),), GREY, turned=pin),
-        Part(SPRING, None, 0, STEEL, (Instance(SPRING, z),), BLACK, bought=bought, marks=marks, play=held.pin),
+        Part(
+            SPRING, None, 0, STEEL, (Instance(SPRING, z),), BLACK, bought=bought, marks=marks, play=held.pin
+        ),
     ]
 
 

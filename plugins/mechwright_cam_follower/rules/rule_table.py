@@ -31,7 +31,7 @@ from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.rules.closure import CLOSURE
 from mechwright_cam_follower.rules.gentler_motion import gentler
 from mechwright_cam_follower.rules.remedies import sizes_for
-from mechwright_cam_follower.rules.spring_rules import BOUGHT_SPRING, SPRING_NOTE
+from mechwright_cam_follower.rules.spring_rules import BOUGHT_SPRING, INERTIA, SPRING_NOTE
 from mechwright_cam_follower.rules.walls import WALLS
 from mechwright_cam_follower.spring.choice import RESERVE
 
@@ -264,6 +264,7 @@ LOADS = all_of(
     _spring_rule("N", slides=True),
     _spring_rule("N*m", slides=False),
     BOUGHT_SPRING,
+    INERTIA,
     CONTACT_PRESSURE,
 )
 

@@ -1,22 +1,27 @@
 """The spring that is bought: whether one holds the follower, and what it does."""
 
 import math
-from functools import partial
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from mechwright import kept
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, no_figures
+from mechwright import Finding, Stage, kept
+from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure, no_figures
 from mechwright.contracts.design_table import by_row
 from mechwright.contracts.finding import Change
 from mechwright.standards.spring_strength import fatigue_safety
 from mechwright.standards.springs import SCATTER
+from mechwright.tolerances import exceeds
 from mechwright_cam_follower.kinematics.extremes import weakest
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.parameters import AUTO, CamParams
+from mechwright_cam_follower.parts.lever_inertia import own_inertia
 from mechwright_cam_follower.parts.spring_parts import spring_place
-from mechwright_cam_follower.spring.choice import RESERVE, SAFE, held_of, nearest
+from mechwright_cam_follower.spring.choice import SAFE, held_of, nearest
+
+INERTIA_SPARE = 1.15
+"""What is proposed over the inertia of the parts: another spring has another pin and another tail."""
 
 SLOWEST = 0.01
 """Speed of the design table, rev/min, below which no remedy is looked for."""
@@ -41,7 +46,9 @@ def _lack(m: Mechanism) -> float:
 
 def _says(f: Failure[Mechanism]) -> str:
     given, found = f.m.given, nearest(f.m.given)
-    what = "no extension spring of the table" if given.spring == AUTO else f"the extension spring {given.spring}"
+    what = (
+        "no extension spring of the table" if given.spring == AUTO else f"the extension spring {given.spring}"
+    )
     if found is None:
         return f"{what} has room at this follower, or none lasts over its stroke"
     held, lack = found
@@ -115,11 +122,11 @@ def _words(m: Mechanism) -> str:
     safety = fatigue_safety(low, high, held.spring.wire, held.spring.mean)
     least = weakest(m)
     return (
-        f"extension spring {held.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at {long:.4g} mm, "
-        f"safety against fatigue {safety:.3g}; its pins stand at {place.on_follower.real:.4g} mm on the follower, "
-        f"and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; it keeps at least {least.value:.3g} "
-        f"{_unit(m)} of contact at {math.degrees(least.angle):.1f} degrees, and a tenth of what is asked where "
-        f"its force is {SCATTER:.0%} less; friction and weights are not counted"
+        f"extension spring {held.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at {long:.4g} "
+        f"mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm on the "
+        f"follower, and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; it presses with at least "
+        f"{least.value:.3g} {_unit(m)} more than is asked, at {math.degrees(least.angle):.1f} degrees; a tenth "
+        f"of what is asked is left where its force is {SCATTER:.0%} less; friction and weights are not counted"
     )
 
 
@@ -132,3 +139,25 @@ def _is_held(m: Mechanism) -> bool:
 
 
 SPRING_NOTE = Note[Mechanism]("follower.spring-force", _words, _least, "N*m", when=_is_held)
+
+
+def _inertia(m: Mechanism) -> Iterator[Finding]:
+    """The spring is chosen for the inertia that is stated, so the parts must not have more."""
+    own, stated = own_inertia(m), float(m.value("inertia"))
+    if exceeds(own, stated):
+        works = float(f"{own * INERTIA_SPARE:.2g}")
+        yield Finding.error(
+            "follower.inertia",
+            "inertia",
+            f"lever, roller and spring pin alone have {own:.3g} kg·m² about the lever's axis, and the spring "
+            f"is chosen for {stated:.3g}",
+            own,
+            stated,
+            "kg*m^2",
+            f"set inertia = {works:g}, or more",
+            Stage.PARTS,
+            ({"parameters.inertia": works},),
+        )
+
+
+INERTIA = Procedure[Mechanism](["follower.inertia"], _inertia, when=_is_held)

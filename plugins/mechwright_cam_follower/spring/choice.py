@@ -1,10 +1,9 @@
 """Which spring holds a follower, and where it hooks.
 
 Every spring of the table is tried on a few tails. Its pins are as near to each other as keeps the follower on
-its cam over the whole turn with a tenth of reserve, also where the maker's force is a tenth below the calculated
-one. A spring is fit
-where coils and hooks bear the force that swings between its two lengths. Of those that press least, the shortest
-one is chosen.
+its cam over the whole turn with a tenth of reserve, also where the maker's force is a tenth below the
+calculated one. A spring is fit where coils and hooks bear the force that swings between its two lengths. Of
+those that press least, the shortest one is chosen.
 """
 
 import math
@@ -74,7 +73,7 @@ class Asked:
         return cls(rates.s, -(inertia_at(m, rates.a * m.omega**2) + load_of(m)))
 
     def lacks(self, press: Array) -> Array:
-        """What is missing at the worst place, (n, 1), of springs that press so, (n, k); below 0 nothing is."""
+        """What springs that press so, (n, k), lack at the worst place, (n, 1); below 0 they lack nothing."""
         need = np.where(self.press > 0, RESERVE * self.press, self.press)
         return np.asarray((need - (1 - SCATTER) * press).max(axis=-1, keepdims=True))
 
@@ -102,11 +101,7 @@ def nearest(params: CamParams) -> tuple[Held, float] | None:
     """The fit spring that lacks least, stretched as far as it may be, and what it lacks; None without one."""
     m = mechanism_of(params)
     asked = Asked.of(m)
-    found = [
-        (one, asked.lacks(one.press(asked.lift)).item())
-        for one in _stretched(m)
-        if _fits(m, one)
-    ]
+    found = [(one, asked.lacks(one.press(asked.lift)).item()) for one in _stretched(m) if _fits(m, one)]
     return min(found, key=lambda one: one[1], default=None)
 
 
@@ -163,7 +158,9 @@ def _candidates(m: Mechanism) -> Iterator[Held]:
         low = _column(_least_apart(m, s, tail) for s in springs)
         high = _column(s.longest for s in springs) + m.stroke * max(tail, 1.0)
 
-        def lacks(apart: Array, tail: float = tail, rate: Any = rate, f0: Any = initial, d: Any = slack) -> Array:
+        def lacks(
+            apart: Array, tail: float = tail, rate: Any = rate, f0: Any = initial, d: Any = slack
+        ) -> Array:
             hooks = Hooks(tail, apart, middle)
             pull = f0 + rate * (hooks.distance(asked.lift) + d)
             return asked.lacks(pull * hooks.lever(asked.lift) * hooks.scale)
@@ -207,7 +204,7 @@ def _least_apart(m: Mechanism, spring: ExtensionSpring, tail: float) -> float:
 
 
 def _fits(m: Mechanism, one: Held) -> bool:
-    """Whether coils, hooks and pin bear the force between the two ends of the lift, and the pins have room."""
+    """Whether coils, hooks and pins bear the force at both ends of the lift, and the pins have room."""
     ends = np.array([0.0, m.stroke])
     low, high = one.pull(ends)
     length = float(one.length(ends).max())

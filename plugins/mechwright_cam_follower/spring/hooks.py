@@ -7,8 +7,8 @@ With the tail t, the distance l of the pins in the middle, and δ the swing from
     a² = t² (1 - cos δ)² + (l + t sin δ)²
     da/dψ = t (t (1 - cos δ) sin δ + (l + t sin δ) cos δ)/a
 
-a being the distance of the pins. By virtual work a spring of the force F presses with F da/dψ. The spring of a
-slide lies along it, so a grows as the lift does.
+a being the distance of the pins. By virtual work a spring of the force F presses with F da/dψ. The spring of
+a slide lies along it, so a grows as the lift does.
 """
 
 import math
@@ -43,10 +43,10 @@ ROOM, TIP = 0.25, 1.5
 """Of a groove beside the wire on either side, and length of a pin above it, mm."""
 
 FOOT = 20.0
-"""How far the pin that stands goes down below the lever's upper face at most, beyond the lever and its cam, mm."""
+"""How far the pin that stands goes down below the cam's underside at most, mm."""
 
 BENDING = 200.0
-"""Bending stress of pins under a force that swells, MPa: two thirds of what steel bears under an alternating one."""
+"""Bending stress of pins under a force that swells, MPa: two thirds of what steel bears for ever."""
 
 
 def pin_for(spring: ExtensionSpring, most: float) -> float:

@@ -32,7 +32,10 @@ def post_faults(post: Post, levels: Levels, space: Space) -> list[Finding]:
     for piece in space.between(levels.lower, post.high):
         room = float(shapely.distance(at, piece.region))
         if piece.body not in post.holds and room < post.diameter / 2 + CLEARANCE:
-            said = f"{piece.part} passes the axis of {post.name} at {room:.2f} mm, and that is {post.diameter:g} mm thick"
+            said = (
+                f"{piece.part} passes the axis of {post.name} at {room:.2f} mm, and that is "
+                f"{post.diameter:g} mm thick"
+            )
             change: Change = {post.key: None}
             return [
                 fault(
