@@ -48,6 +48,7 @@ if TYPE_CHECKING:
         Mounting,
         MountingError,
         Post,
+        Slideway,
         Spindle,
     )
     from mechwright.contracts.named import Named
@@ -113,7 +114,9 @@ _HOMES = {
     "mechwright.contracts.materials": "MaterialName material",
     "mechwright.contracts.measure": "Measure",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
-    "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Post Spindle",
+    "mechwright.contracts.mounting": (
+        "Flange Foot GroundPlate Hub Mounting MountingError Post Slideway Spindle"
+    ),
     "mechwright.contracts.named": "Named",
     "mechwright.contracts.parameters": "FIRST FITTED GIVEN Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
@@ -174,7 +177,6 @@ __all__ += [
     "Load",
     "Motion",
     "Poses",
-    "Post",
     "Rates",
     "Scalar",
     "Trace",
@@ -191,6 +193,8 @@ __all__ += [
     "Measure",
     "Mounting",
     "MountingError",
+    "Post",
+    "Slideway",
     "Spindle",
 ]
 __all__ += [

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from mechwright import FIRST, FITTED, GIVEN, DesignError, MaterialName, Parameters
 from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
+from mechwright.standards.linear_guides import LinearGuide, linear_guide
 from mechwright.standards.springs import extension_spring
 from mechwright.units import Millimetres, RevPerMin, Unit
 from mechwright_cam_follower.defaults.proportions import FOLLOWS, fitted, followed, left_out
@@ -46,6 +47,7 @@ def _spring(text: str) -> str:
 AUTO = "auto"
 """In place of a spring's name: the program chooses."""
 
+GuideName = Literal["rails", "linear-9", "linear-12", "linear-15"]
 SpringName = Annotated[str, Field(max_length=40), AfterValidator(_spring)]
 Angle = Annotated[float, Field(ge=LEAST_ANGLE, le=360), Unit("deg")]
 Lift = Annotated[float, Field(ge=0, le=300), Unit("mm")]
@@ -270,6 +272,13 @@ class CamParams(Parameters):
     guide_length: Millimetres = Field(
         40.0, ge=5, le=500, description="Length of the rails that guide a translating follower."
     )
+    guide: GuideName | None = Field(
+        None,
+        description=(
+            "Guide of a translating follower: rails that are cut from plate, or a linear guide to buy, which "
+            "a frame carries. Default: rails."
+        ),
+    )
     guide_clearance: Millimetres = Field(
         0.05, ge=0.005, le=1, description="Between the follower and each rail."
     )
@@ -351,8 +360,10 @@ class CamParams(Parameters):
                 raise ValueError(f"{name}: the spring that is bought has its own; leave it out, or spring")
         if self.conjugate and self.spring is not None:
             raise ValueError("spring: conjugate cams need none; leave it out")
-        if self.translating and self.spring is not None:
-            raise ValueError("spring is for levers; a slide states spring_preload and spring_rate")
+        if self.guide is not None and (not self.translating or self.conjugate):
+            raise ValueError("guide is for a translating follower with one cam; leave it out")
+        if self.translating and self.spring is not None and self.linear_guide is None:
+            raise ValueError('spring: that of a slide lies over a linear guide; set guide = "linear-15"')
         keyed_together(self)
 
     def value(self, name: str) -> float:
@@ -369,6 +380,11 @@ class CamParams(Parameters):
     def translating(self) -> bool:
         """Whether the follower slides."""
         return self.follower == "translating"
+
+    @property
+    def linear_guide(self) -> LinearGuide | None:
+        """That of a slide; None for a lever, and for rails that are cut from plate."""
+        return None if self.guide in {None, "rails"} else linear_guide(str(self.guide))
 
     @property
     def ends(self) -> tuple[float, ...]:

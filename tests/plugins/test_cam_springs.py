@@ -21,7 +21,7 @@ from mechwright_cam_follower.kinematics.forces import spring_at
 from mechwright_cam_follower.kinematics.mechanism import Mechanism, mechanism_of
 from mechwright_cam_follower.kinematics.motion import motion_of
 from mechwright_cam_follower.parameters import CamParams
-from mechwright_cam_follower.parts.lever_inertia import own_inertia
+from mechwright_cam_follower.parts.moved_mass import own_inertia
 from mechwright_cam_follower.parts.parts import parts_of
 from mechwright_cam_follower.parts.spring_parts import spring_place
 from mechwright_cam_follower.rules.spring_rules import BOUGHT_SPRING

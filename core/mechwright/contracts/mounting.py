@@ -6,7 +6,9 @@ spindle
     An axis about which a body of the motion turns in the frame. It is upright, and goes through the body's
     origin.
 post
-    An upright pin of the mechanism in the lower bearing plate.
+    An upright pin of the mechanism in a bearing plate.
+slideway
+    A linear guide on the lower bearing plate, which carries a body that slides.
 hub
     What sits on the spindle's shaft and turns with it: one part, or several on each other with one bore.
 share
@@ -21,6 +23,7 @@ from mechwright.contracts.finding import Change
 from mechwright.contracts.turned import Step
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
+from mechwright.standards.linear_guides import LinearGuide
 
 
 class MountingError(DesignError):
@@ -122,7 +125,7 @@ class Spindle:
 
 @dataclass(frozen=True)
 class Post:
-    """An upright pin of the mechanism that stands in the lower bearing plate, as of a spring.
+    """An upright pin of the mechanism that stands in a bearing plate, as of a spring.
 
     Parameters
     ----------
@@ -131,13 +134,15 @@ class Post:
     point
         Where it stands in the ground, mm.
     diameter
-        From the plate up to ``low``, mm.
+        Of its shank, mm, from the plate to ``low``.
     low, head
-        Height, mm, at which its upper end begins, and the steps of that.
+        Height, mm, at which its other end begins, and the steps of that.
     holds
-        Bodies of the motion that go around its upper end.
+        Bodies of the motion that go around that end.
     key
         The design-file key without which there is no such pin.
+    hangs
+        Whether it hangs from the upper plate, else it stands in the lower one.
     """
 
     name: str
@@ -147,11 +152,53 @@ class Post:
     head: tuple[Step, ...]
     holds: frozenset[str] = frozenset()
     key: str = ""
+    hangs: bool = False
 
     @property
-    def high(self) -> float:
-        """Height of its upper end, mm."""
-        return self.low + sum(step.length for step in self.head)
+    def tip(self) -> float:
+        """Height of its free end, mm."""
+        length = sum(step.length for step in self.head)
+        return self.low - length if self.hangs else self.low + length
+
+
+@dataclass(frozen=True)
+class Slideway:
+    """A linear guide whose rail lies on the lower bearing plate, and whose carriage carries a body.
+
+    Parameters
+    ----------
+    guide
+        Its size.
+    body
+        Of the motion, on the carriage; it does not turn.
+    start, angle
+        Middle of the rail's first end, mm, and the direction of the way, rad.
+    length
+        Of the rail, mm.
+    low
+        Height of the rail's base, mm: the carriage's upper face carries the body.
+    carriage
+        Middle of the carriage in the body's coordinates, mm.
+    grip
+        Thickness of what the screws of the carriage go through, mm.
+    key
+        The design-file key of the guide.
+    """
+
+    guide: LinearGuide
+    body: str
+    start: Point
+    angle: float
+    length: float
+    low: float
+    carriage: Point
+    grip: float
+    key: str
+
+    def at(self, along: float, across: float = 0.0) -> Point:
+        """A place of the rail in the ground, mm."""
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        return self.start[0] + c * along - s * across, self.start[1] + s * along + c * across
 
 
 _ANGLES = (180.0, 90.0, -90.0, 135.0, -135.0, 45.0, -45.0, 0.0)
@@ -175,7 +222,9 @@ class Mounting:
         The design-file keys, in degrees, that turn parts of the mechanism about a spindle, out of the way of
         others.
     posts
-        Pins that stand in the lower bearing plate.
+        Pins that stand in a bearing plate.
+    slideways
+        Linear guides on the lower bearing plate, at one height.
     fastest
         Speed of the input, rev/min, above which the mechanism comes apart, as a follower that leaves its cam,
         and the design-file key of the speed for which it is made; None for none.
@@ -192,6 +241,7 @@ class Mounting:
     own_shafts: tuple[str, ...] = ()
     turning_keys: tuple[str, ...] = ()
     posts: tuple[Post, ...] = ()
+    slideways: tuple[Slideway, ...] = ()
     fastest: tuple[float, str] | None = None
 
     def __post_init__(self) -> None:

@@ -1,8 +1,8 @@
 """Cylindrical helical extension springs of round wire: rate, stress and fatigue.
 
 Sources: EN 13906-2 for rate, correction factor, initial stress and permissible stress; EN 10270-1 for the
-strength of the wire; fatigue by Zimmerli's limits with Goodman's line (Shigley's Mechanical Engineering Design, chapter
-10). With wire d, mean diameter D, w = D/d, and n coils
+strength of the wire; for fatigue Zimmerli's limits with Goodman's line (Shigley's Mechanical Engineering
+Design, chapter 10). With wire d, mean diameter D, w = D/d, and n coils
 
     R = G d⁴/(8 D³ n)          τ = 8 D F/(π d³)          k = (w + 0.5)/(w - 0.75) (Bergsträsser)
 

@@ -132,7 +132,7 @@ def _poses(m: Mechanism, contacts: tuple[Contact, ...], rates: Rates) -> dict[st
         poses[SPRING_PIN] = Poses.planar(pin.real, pin.imag, angle)
         still, turn = np.full(pin.shape, spring.stands), np.full(pin.shape, spring.direction)
         poses[SPRING] = Poses.planar(still.real, still.imag, turn)
-    if m.slides:
+    if m.railed:
         for body, place in zip(RAILS, rails_of(m).places, strict=True):
             poses[body] = Poses.planar(place.real, place.imag, np.zeros_like(angle))
     return poses
@@ -143,7 +143,7 @@ def _joints(m: Mechanism) -> dict[str, Joint]:
     if not m.flat:
         for body, place in zip(ROLLERS, studs_of(m), strict=False):
             found[body] = Joint("fixed", FOLLOWER, body, (place.real, place.imag, 0.0))
-    if m.slides:
+    if m.railed:
         found |= {body: Joint("fixed", GROUND, body) for body in RAILS}
     spring = spring_place(m)
     if spring is not None:

@@ -39,14 +39,13 @@ from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.kinematics.motion import ROLLERS
 from mechwright_cam_follower.parts.follower_dimensions import (
     CORNER,
-    bar_width,
     follower_depth,
-    shaft_room,
     slide_height,
     slide_sides,
 )
-from mechwright_cam_follower.parts.parts import BOSSES
+from mechwright_cam_follower.parts.parts import BOSSES, carriage_holes
 from mechwright_cam_follower.parts.shaft_opening import opening_area
+from mechwright_cam_follower.parts.slide_dimensions import bar_width, shaft_room
 from mechwright_cam_follower.parts.spring_parts import SPRING_MASSES, spring_hole_area
 from mechwright_cam_follower.spring.choice import spring_tail
 
@@ -67,7 +66,7 @@ def masses_of(m: Mechanism) -> dict[str, PartMass]:
     found["slide" if m.slides else "lever"] = part(_follower, follower_depth(m))
     if not m.flat:
         found |= {name: PartMass(partial(_roller, m)) for _, name in zip(m.cams, ROLLERS, strict=False)}
-    if m.slides:
+    if m.railed:
         found["rail"] = part(_rail, follower_depth(m), 2)
     if m.given.spring is not None:
         found |= {name: PartMass(partial(by_row(mass), m)) for name, mass in SPRING_MASSES.items()}
@@ -124,6 +123,7 @@ def _follower(m: Mechanism) -> Any:
         area = area - len(m.cams) * circle_area(m.given.pin_diameter)
     if m.given.spring is not None:
         area = area - by_row(spring_hole_area)(m)
+    area = area - sum(circle_area(size) for _, size in carriage_holes(m).values())
     if m.given.conjugate:
         area = area - strip_area(m.stroke * (1.0 if m.slides else m.axis), shaft_room(m))
     return area

@@ -8,6 +8,7 @@ of its cam, and so do its rails.
 import cmath
 import math
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +34,7 @@ from mechwright import (
 from mechwright.geometry.strip import strip
 from mechwright.mechanics.linkage.outlines import Boss, hull_link, rectangle
 from mechwright.mechanics.openings import opening_of
+from mechwright.standards.screws import screw_size
 from mechwright_cam_follower.kinematics.extremes import face_ends
 from mechwright_cam_follower.kinematics.mechanism import Mechanism, mechanism_of
 from mechwright_cam_follower.kinematics.motion import CAM, FOLLOWER, RAILS, ROLLERS
@@ -40,15 +42,14 @@ from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.parts.cam_outline import outline_of
 from mechwright_cam_follower.parts.follower_dimensions import (
     CORNER,
-    bar_width,
     follower_depth,
     follower_foot,
     rails_of,
-    shaft_room,
     slide_height,
     slide_sides,
     studs_of,
 )
+from mechwright_cam_follower.parts.slide_dimensions import bar_width, carriage_place, shaft_room
 from mechwright_cam_follower.parts.spring_parts import spring_parts, spring_pin
 from mechwright_cam_follower.spring.choice import spring_tail
 
@@ -65,7 +66,7 @@ def parts_of(params: CamParams) -> tuple[Part, ...]:
     found = [*(_cam(m, cam) for cam in m.cams), _follower(m)]
     if not m.flat:
         found += _rollers(m)
-    if m.slides:
+    if m.railed:
         found.append(_rail(m))
     return (*found, *spring_parts(m))
 
@@ -130,7 +131,7 @@ def _follower(m: Mechanism) -> Part:
     if not m.flat:
         for number, stud in enumerate(studs_of(m), start=1):
             holes[f"stud-{number}"] = ((stud.real, stud.imag), m.given.pin_diameter)
-    holes |= spring_pin(m)
+    holes |= {**spring_pin(m), **carriage_holes(m)}
     features: list[Feature] = [Bore(name, place, size, 0, depth) for name, (place, size) in holes.items()]
     inner = [_hole(place, size) for place, size in holes.values()]
     if m.given.conjugate:
@@ -147,6 +148,18 @@ def _follower(m: Mechanism) -> Part:
         BLUE,
         tuple(features),
     )
+
+
+def carriage_holes(m: Mechanism) -> dict[str, tuple[Point, Any]]:
+    """Place and diameter of the holes for the screws of a carriage, by name, mm; empty without one."""
+    guide = m.given.linear_guide
+    if guide is None:
+        return {}
+    middle, size = carriage_place(m), screw_size(guide.thread).clearance()
+    return {
+        f"carriage-{number}": ((-across, middle + along), size)
+        for number, (along, across) in enumerate(guide.carriage_holes, start=1)
+    }
 
 
 def _slide_loop(m: Mechanism) -> Loop:

@@ -9,6 +9,7 @@ from mechwright import FittingMark, Instance, Part, Point, Step, Turned, materia
 from mechwright.contracts.mass import KILOGRAMS
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.parts.follower_dimensions import follower_depth, follower_foot
+from mechwright_cam_follower.parts.slide_dimensions import pin_place
 from mechwright_cam_follower.spring.choice import held_of
 from mechwright_cam_follower.spring.hooks import Held
 
@@ -55,6 +56,10 @@ def spring_place(m: Mechanism) -> SpringPlace | None:
     if held is None:
         return None
     hooks, top = held.hooks, follower_foot(m) + follower_depth(m)
+    if m.slides:
+        moves = complex(m.offset, m.start + pin_place(m) + m.given.ends[-1])
+        stands = complex(m.offset, m.start + pin_place(m) - hooks.apart)
+        return SpringPlace(held, stands, moves, 1j * pin_place(m), top)
     # A lever's +x goes from its axis to its roller or along its face, under this angle where it is lowest.
     lowest = math.pi / 2 + m.start if m.flat else math.pi - m.start
     start = math.radians(m.given.ends[-1])

@@ -31,7 +31,7 @@ from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.rules.closure import CLOSURE
 from mechwright_cam_follower.rules.gentler_motion import gentler
 from mechwright_cam_follower.rules.remedies import sizes_for
-from mechwright_cam_follower.rules.spring_rules import BOUGHT_SPRING, INERTIA, SPRING_NOTE
+from mechwright_cam_follower.rules.spring_rules import BOUGHT_SPRING, GUIDE, MOVED, SPRING_NOTES
 from mechwright_cam_follower.rules.walls import WALLS
 from mechwright_cam_follower.spring.choice import RESERVE
 
@@ -264,7 +264,8 @@ LOADS = all_of(
     _spring_rule("N", slides=True),
     _spring_rule("N*m", slides=False),
     BOUGHT_SPRING,
-    INERTIA,
+    MOVED,
+    GUIDE,
     CONTACT_PRESSURE,
 )
 
@@ -278,7 +279,7 @@ NOTES = all_of(
     Note("follower.face", _face, _face_length, "mm", when=lambda m: m.flat),
     _preload_note("N", slides=True),
     _preload_note("N*m", slides=False),
-    SPRING_NOTE,
+    *SPRING_NOTES,
     Note("follower.loads", _load_words, lambda m: load_peak(m, "torque_max").value, "N*m"),
 )
 

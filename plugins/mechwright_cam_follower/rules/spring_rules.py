@@ -1,4 +1,4 @@
-"""The spring that is bought: whether one holds the follower, and what it does."""
+"""The spring and the guide that are bought: whether one holds the follower, and what they bear."""
 
 import math
 from collections.abc import Iterator
@@ -10,18 +10,24 @@ from mechwright import Finding, Stage, kept
 from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure, no_figures
 from mechwright.contracts.design_table import by_row
 from mechwright.contracts.finding import Change
+from mechwright.standards.linear_guides import linear_guides
 from mechwright.standards.spring_strength import fatigue_safety
 from mechwright.standards.springs import SCATTER
 from mechwright.tolerances import exceeds
-from mechwright_cam_follower.kinematics.extremes import weakest
+from mechwright_cam_follower.kinematics.extremes import face_ends, load_peak, pressure_peak, weakest
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.parameters import AUTO, CamParams
-from mechwright_cam_follower.parts.lever_inertia import own_inertia
+from mechwright_cam_follower.parts.follower_dimensions import follower_depth
+from mechwright_cam_follower.parts.moved_mass import own_inertia, own_mass
+from mechwright_cam_follower.parts.slide_dimensions import carriage_place
 from mechwright_cam_follower.parts.spring_parts import spring_place
 from mechwright_cam_follower.spring.choice import SAFE, held_of, nearest
 
-INERTIA_SPARE = 1.15
-"""What is proposed over the inertia of the parts: another spring has another pin and another tail."""
+SPARE = 1.15
+"""What is proposed over the mass or inertia of the parts: another spring has another pin and another tail."""
+
+GUIDE_SAFETY = 2.0
+"""Of a carriage against its static moment: it runs for long, and the figures are a handbook's."""
 
 SLOWEST = 0.01
 """Speed of the design table, rev/min, below which no remedy is looked for."""
@@ -90,7 +96,11 @@ def _remedy(f: Failure[Mechanism]) -> str:
     if not changes:
         return "make the follower lighter, or its load smaller"
     key, value = changes[0]
-    return f'set {key} = "{value}"' if isinstance(value, str) else f"set {key} = {value:g}, or less inertia"
+    return (
+        f'set {key} = "{value}"'
+        if isinstance(value, str)
+        else f"set {key} = {value:g}, or make the follower lighter"
+    )
 
 
 def _when(m: Mechanism) -> bool:
@@ -124,9 +134,9 @@ def _words(m: Mechanism) -> str:
     return (
         f"extension spring {held.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at {long:.4g} "
         f"mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm on the "
-        f"follower, and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; it presses with at least "
-        f"{least.value:.3g} {_unit(m)} more than is asked, at {math.degrees(least.angle):.1f} degrees; a tenth "
-        f"of what is asked is left where its force is {SCATTER:.0%} less; friction and weights are not counted"
+        f"follower, and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; {least.value:.3g} {_unit(m)} "
+        f"are left over what is asked, at {math.degrees(least.angle):.1f} degrees, and a tenth where its force "
+        f"is {SCATTER:.0%} less; friction and weights are not counted"
     )
 
 
@@ -138,26 +148,68 @@ def _is_held(m: Mechanism) -> bool:
     return _when(m) and held_of(m.given) is not None
 
 
-SPRING_NOTE = Note[Mechanism]("follower.spring-force", _words, _least, "N*m", when=_is_held)
+def _note(unit: str, *, slides: bool) -> Note[Mechanism]:
+    return Note(
+        "follower.spring-force", _words, _least, unit, when=lambda m: m.slides == slides and _is_held(m)
+    )
 
 
-def _inertia(m: Mechanism) -> Iterator[Finding]:
-    """The spring is chosen for the inertia that is stated, so the parts must not have more."""
-    own, stated = own_inertia(m), float(m.value("inertia"))
+SPRING_NOTES = (_note("N", slides=True), _note("N*m", slides=False))
+
+
+def _moved(m: Mechanism) -> Iterator[Finding]:
+    """The spring is chosen for the mass or inertia that is stated, so the parts must not have more."""
+    key, unit = ("mass", "kg") if m.slides else ("inertia", "kg*m^2")
+    own, stated = (own_mass if m.slides else own_inertia)(m), float(m.value(key))
     if exceeds(own, stated):
-        works = float(f"{own * INERTIA_SPARE:.2g}")
+        works = float(f"{own * SPARE:.2g}")
+        what = (
+            f"slide, roller, spring pin and carriage alone have {own:.3g} kg"
+            if m.slides
+            else f"lever, roller and spring pin alone have {own:.3g} kg·m² about the lever's axis"
+        )
         yield Finding.error(
-            "follower.inertia",
-            "inertia",
-            f"lever, roller and spring pin alone have {own:.3g} kg·m² about the lever's axis, and the spring "
-            f"is chosen for {stated:.3g}",
+            f"follower.{key}",
+            key,
+            f"{what}, and the spring is chosen for {stated:.3g}",
             own,
             stated,
-            "kg*m^2",
-            f"set inertia = {works:g}, or more",
+            unit,
+            f"set {key} = {works:g}, or more",
             Stage.PARTS,
-            ({"parameters.inertia": works},),
+            ({f"parameters.{key}": works},),
         )
 
 
-INERTIA = Procedure[Mechanism](["follower.inertia"], _inertia, when=_is_held)
+MOVED = Procedure[Mechanism](["follower.mass", "follower.inertia"], _moved, when=_is_held)
+
+
+def _tilts(m: Mechanism) -> float:
+    """Moment about both axes across the way over what the carriage bears; 0 without one."""
+    guide = m.given.linear_guide
+    if guide is None:
+        return 0.0
+    force = float(load_peak(m, "contact_force_max").value)
+    sideways = force * math.sin(float(pressure_peak(m).value))
+    far = float(carriage_place(m)) + m.roller
+    if m.flat:
+        far = float(carriage_place(m)) + max(map(abs, face_ends(m)))
+    low = guide.height - guide.under
+    place = spring_place(m)
+    pull = 0.0 if place is None else place.held.strongest * (place.held.height + follower_depth(m) + low)
+    return (sideways * far + force * (low + m.given.thickness) + pull) / 1000 / guide.tilt
+
+
+GUIDE = DesignRule[Mechanism](
+    "follower.guide-moment",
+    "guide",
+    lambda f: f"contact and spring tilt the carriage with {f.value:.2f} of the static moment of its guide",
+    value=by_row(_tilts),
+    limit=1 / GUIDE_SAFETY,
+    remedy="take a larger guide, or load it less",
+    must_be="at most",
+    proposed=lambda f: tuple(
+        {"parameters.guide": one.name} for one in linear_guides() if one.size > f.m.given.linear_guide.size
+    ),
+    when=lambda m: m.given.linear_guide is not None,
+)

@@ -20,6 +20,7 @@ from mechwright.standards.spring_strength import fatigue_safety
 from mechwright.standards.springs import SCATTER, ExtensionSpring, extension_springs
 from mechwright_cam_follower.kinematics.mechanism import Mechanism, mechanism_of
 from mechwright_cam_follower.parameters import AUTO, CamParams
+from mechwright_cam_follower.parts.slide_dimensions import pin_place
 from mechwright_cam_follower.spring.hooks import NECK, POSTS, SLIP, Held, Hooks, pin_for
 
 SAFE = 1.2
@@ -39,6 +40,9 @@ TAILS = (1.0, 1.25, 1.6, 2.0)
 
 STATIONS = 361
 """Places of a turn at which the spring is compared with what the follower asks."""
+
+HEADS = 5.0
+"""Height of the screws of a carriage with their washers, over which the spring of a slide lies, mm."""
 
 RESERVE = 1.1
 """A tenth more than the follower asks: of every spring that the program names or chooses."""
@@ -138,10 +142,10 @@ def _hooked(m: Mechanism) -> Iterator[tuple[list[ExtensionSpring], float]]:
 
 
 def _held(m: Mechanism, spring: ExtensionSpring, hooks: Hooks) -> Held:
-    top = m.given.thickness
+    top, under = m.given.thickness, HEADS if m.slides else 0.0
     if not m.flat:
         top += m.given.axial_gap + m.given.follower_thickness
-    return Held(spring, hooks, pin_of(m, spring), m.stroke, top)
+    return Held(spring, hooks, pin_of(m, spring), m.stroke, top, under)
 
 
 def _column(values: Iterator[float]) -> Array:
@@ -194,13 +198,23 @@ def _distances(m: Mechanism, spring: ExtensionSpring, tail: float) -> Array:
 
 def _least_apart(m: Mechanism, spring: ExtensionSpring, tail: float) -> float:
     """Distance of the pins in the middle at which the spring is taut at the lowest place."""
-    least = spring.free + TAUT - NECK * pin_of(m, spring)
+    least = float(spring.free + TAUT - NECK * pin_of(m, spring))
     if m.slides:
         return least
     half = m.stroke / 2
     across = tail * (1 - math.cos(half))
     clear = m.given.follower_width / 2 + POSTS[-1] / 2 + APART
     return max(math.sqrt(max(least**2 - across**2, 0.0)), clear) + tail * math.sin(half)
+
+
+def _room(m: Mechanism) -> float:
+    """Greatest distance of the pins of a slide's spring, mm: the standing one is clear of the cam's shaft."""
+    bore = m.given.bore
+    ring = max((one.room for one in shaft_circlips() if one.size <= bore), default=bore)
+    beside = max(ring, bore) / 2 + POSTS[-1] / 2 + BESIDE
+    pin: float = m.start + pin_place(m)
+    # A slide that is off the axis passes the shaft at that distance.
+    return pin - math.sqrt(max(beside**2 - m.offset**2, 0.0))
 
 
 def _fits(m: Mechanism, one: Held) -> bool:
@@ -210,6 +224,8 @@ def _fits(m: Mechanism, one: Held) -> bool:
     length = float(one.length(ends).max())
     spring = one.spring
     if length > spring.longest or one.length(ends).min() < spring.free + TAUT / 2:
+        return False
+    if m.slides and one.hooks.apart > _room(m):
         return False
     most = min(spring.inside - SLIP, m.given.follower_width - 2 * m.given.least_wall)
     if one.pin > most or one.post is None:

@@ -45,6 +45,9 @@ ROOM, TIP = 0.25, 1.5
 FOOT = 20.0
 """How far the pin that stands goes down below the cam's underside at most, mm."""
 
+CEILING = 10.0
+"""How far the pin that hangs goes up above the axis of its spring at most, mm."""
+
 BENDING = 200.0
 """Bending stress of pins under a force that swells, MPa: two thirds of what steel bears for ever."""
 
@@ -113,6 +116,8 @@ class Held:
         Greatest lift, mm or rad.
     top
         Height of the follower's upper face over the cam's underside, mm.
+    under
+        What lies on that face under the spring, mm.
     """
 
     spring: ExtensionSpring
@@ -120,6 +125,7 @@ class Held:
     pin: float
     stroke: float
     top: float
+    under: float = 0.0
 
     @property
     def neck(self) -> float:
@@ -129,7 +135,17 @@ class Held:
     @property
     def height(self) -> float:
         """Of the spring's axis over the follower's upper face, mm."""
-        return FREE + self.spring.outside / 2
+        return self.under + FREE + self.spring.outside / 2
+
+    @property
+    def hangs(self) -> bool:
+        """Whether the other pin hangs from above, as that of a slide; that of a lever stands."""
+        return self.hooks.tail == 0
+
+    @property
+    def shank(self) -> float:
+        """Height over the follower's upper face, mm, at which the other pin's shank ends."""
+        return self.height + (1 if self.hangs else -1) * (FREE + self.spring.outside / 2)
 
     @property
     def strongest(self) -> float:
@@ -139,7 +155,8 @@ class Held:
     @property
     def post(self) -> float | None:
         """Diameter of the pin that stands, mm; None where none bears the spring."""
-        force, high = self.strongest, self.top + self.height + FOOT
+        force = self.strongest
+        high = self.height + CEILING if self.hangs else self.top + self.height + FOOT
         if bends(force, self.height, self.pin):
             return None
         able = (one for one in POSTS if one >= self.pin + SHOULDER and not bends(force, high, one))
@@ -147,10 +164,18 @@ class Held:
 
     @property
     def head(self) -> tuple[Step, ...]:
-        """A pin from the follower's upper face on, with the groove for the hook."""
+        """The pin on the follower from its upper face on, with the groove for the hook."""
+        return self._head(self.height)
+
+    @property
+    def post_head(self) -> tuple[Step, ...]:
+        """The other pin from its shank on."""
+        return self._head(FREE + self.spring.outside / 2)
+
+    def _head(self, height: float) -> tuple[Step, ...]:
         wide = self.spring.wire + 2 * ROOM
         return (
-            Step(self.pin, self.height - wide / 2),
+            Step(self.pin, height - wide / 2),
             Step(self.neck, wide),
             Step(self.pin, max(TIP, self.spring.wire)),
         )

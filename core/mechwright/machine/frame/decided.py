@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mechwright.contracts.mounting import Post
+from mechwright.contracts.mounting import Post, Slideway
 from mechwright.machine.frame.bracket import Bracket
 from mechwright.machine.frame.coupled import Motor
 from mechwright.machine.frame.seats import Seat
@@ -36,8 +36,8 @@ class Frame:
         The rectangle of the columns.
     bracket
         Of the motor; None without one.
-    posts
-        Pins of the mechanism in the lower bearing plate.
+    posts, slideways
+        Pins of the mechanism in the bearing plates, and linear guides on the lower one.
     """
 
     seats: tuple[Seat, ...]
@@ -46,6 +46,7 @@ class Frame:
     standing: Standing
     bracket: Bracket | None
     posts: tuple[Post, ...] = ()
+    slideways: tuple[Slideway, ...] = ()
 
     @property
     def under(self) -> float:

@@ -1,10 +1,10 @@
-"""Pins of the mechanism that stand in the lower bearing plate."""
+"""Pins of the mechanism that stand in the lower bearing plate, or hang from the upper one."""
 
 import shapely
 
 from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.mounting import Post
-from mechwright.contracts.surroundings import Place
+from mechwright.contracts.surroundings import OVER, UPRIGHT, Place
 from mechwright.contracts.turned import Step, Turned
 from mechwright.machine.frame.fault import fault
 from mechwright.machine.frame.free import CLEARANCE
@@ -29,7 +29,8 @@ def post_hole(post: Post, thickness: float) -> Hole:
 def post_faults(post: Post, levels: Levels, space: Space) -> list[Finding]:
     """The first thing that is in a post's way; empty if it is free."""
     at = shapely.Point(post.point)
-    for piece in space.between(levels.lower, post.high):
+    low, high = (post.tip, levels.upper) if post.hangs else (levels.lower, post.tip)
+    for piece in space.between(low, high):
         room = float(shapely.distance(at, piece.region))
         if piece.body not in post.holds and room < post.diameter / 2 + CLEARANCE:
             said = (
@@ -51,9 +52,9 @@ def post_faults(post: Post, levels: Levels, space: Space) -> list[Finding]:
     return []
 
 
-def add_post(kit: Kit, post: Post, under: float) -> None:
-    """The post, flush with the plate's lower face, whose height is ``under``, mm."""
-    kit.places[post.name] = Place((*post.point, 0.0))
-    length = post.low - under
+def add_post(kit: Kit, post: Post, outer: float) -> None:
+    """The post, flush with the plate's outer face, whose height is ``outer``, mm."""
+    kit.places[post.name] = Place((*post.point, 0.0), OVER if post.hangs else UPRIGHT)
+    length = abs(post.low - outer)
     form = Turned((Step(post.diameter, length), *post.head), chamfer=min(BREAK, post.head[-1].diameter / 8))
-    kit.turned(post.name, form, post.name, under)
+    kit.turned(post.name, form, post.name, -outer if post.hangs else outer)

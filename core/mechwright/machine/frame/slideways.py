@@ -1,0 +1,80 @@
+"""Linear guides on the lower bearing plate: rail, carriage and their screws."""
+
+from collections.abc import Iterator, Sequence
+
+import shapely
+
+from mechwright.contracts.holes import threaded
+from mechwright.contracts.mounting import Slideway
+from mechwright.contracts.surroundings import Place, turned
+from mechwright.errors import DesignError
+from mechwright.machine.frame.fixing import fixing, put_fixing
+from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.pillars import put_screw
+from mechwright.machine.frame.plates import Hole
+from mechwright.machine.frame.seats import LEAST_WALL
+from mechwright.machine.frame.standing import Disc
+from mechwright.standards.screws import ENGAGEMENT, screw
+
+
+def floor_of(ways: Sequence[Slideway], needed: float) -> float:
+    """Height of the plate on which rails lie, mm; raises DesignError where the plate has to be lower."""
+    low = min(way.low for way in ways)
+    if low > needed:
+        way = ways[0]
+        raise DesignError(
+            f"{way.key}: the rail of {way.guide.name} lies at z = {low:g} mm, and the bearing plate has to be "
+            f"at {needed:g} mm or below; take a larger guide, or a thinner cam"
+        )
+    return low
+
+
+def region_of(way: Slideway) -> shapely.Geometry:
+    """What rail and carriage take, seen from above."""
+    half = way.guide.width / 2
+    corners = ((0.0, -half), (way.length, -half), (way.length, half), (0.0, half))
+    return shapely.Polygon([way.at(*corner) for corner in corners])
+
+
+def rail_discs(way: Slideway) -> Iterator[Disc]:
+    """What the plate has to hold of a rail: its holes and both ends."""
+    for along in (0.0, *way.guide.rail_holes(way.length), way.length):
+        yield Disc(way.at(along), max(way.guide.rail / 2, way.guide.thread / 2 + LEAST_WALL))
+
+
+def rail_holes(way: Slideway, thickness: float) -> list[Hole]:
+    """Of the plate under a rail, which get threads."""
+    return [
+        Hole.through(_name(k), way.at(along), way.guide.thread, thickness)
+        for k, along in enumerate(way.guide.rail_holes(way.length), start=1)
+    ]
+
+
+def add_slideway(kit: Kit, way: Slideway, material: str) -> None:
+    """Rail and carriage with their screws; the part ``lower-plate`` gets the threads of the rail."""
+    guide, size = way.guide, way.guide.thread
+    kit.places["guide-rail"] = Place((*way.start, 0.0), turned(way.angle))
+    kit.bought("guide-rail", guide.rail_bought(way.length), "guide-rail", way.low)
+    kit.places["guide-carriage"] = Place((*way.carriage, 0.0), turned(way.angle), way.body)
+    kit.bought("guide-carriage", guide.carriage_bought, "guide-carriage", way.low)
+    seat = guide.high - guide.sunk
+    found = screw(size, seat + ENGAGEMENT[material] * size)
+    for k, along in enumerate(guide.rail_holes(way.length), start=1):
+        kit.parts["lower-plate"] = threaded(kit.parts["lower-plate"], _name(k), f"M{size:g}")
+        kit.places[f"{_name(k)}-screw"] = Place((*way.at(along), 0.0))
+        put_screw(kit, found, f"{_name(k)}-screw", way.low + seat)
+    held = fixing(size, way.grip, guide.depth)
+    for k, place in enumerate(guide.carriage_holes, start=1):
+        body = f"carriage-screw-{k}"
+        kit.places[body] = Place((*_turned(way, place), 0.0), on=way.body)
+        put_fixing(kit, held, body, way.low + guide.height + way.grip)
+
+
+def _turned(way: Slideway, place: tuple[float, float]) -> tuple[float, float]:
+    """A place of the carriage in the body's coordinates, mm; the body does not turn."""
+    x, y = way.at(*place)
+    return x - way.start[0] + way.carriage[0], y - way.start[1] + way.carriage[1]
+
+
+def _name(number: int) -> str:
+    return f"rail-{number}"
