@@ -220,7 +220,7 @@ def test_own_inertia_of_a_lever_is_that_of_a_bar():
     [
         ({"spring": "3x3x3"}, "no extension spring"),
         ({"spring_torque": 3.0}, "leave it out"),
-        ({"follower": "translating", "inertia": None, "load_torque": None}, "levers"),
+        ({"follower": "translating", "inertia": None, "load_torque": None}, "linear-15"),
         ({"conjugate": True}, "conjugate"),
     ],
 )

@@ -86,8 +86,8 @@ class LinearGuide:
             )
         ]
         return Bought(
-            f"rail of a miniature linear guide, size {self.size:g}, {length:g} mm long, holes {self.end:g} mm "
-            "from both ends",
+            f"rail of a miniature linear guide, size {self.size:g}, {length:g} mm long, "
+            f"holes {self.end:g} mm from both ends",
             "",
             round(self.line * length, 1),
             Shape((box((0.0, length), (-half, half), (0.0, self.high)),), tuple(less)),

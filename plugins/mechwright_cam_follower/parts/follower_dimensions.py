@@ -50,7 +50,10 @@ def slide_sides(m: Mechanism) -> tuple[Any, Any]:
         return -bar_width(m) / 2, bar_width(m) / 2
     low, high = face_ends(m)
     margin = m.value("face_margin")
-    return low - margin, high + margin
+    if m.given.linear_guide is None:
+        return low - margin, high + margin
+    half = bar_width(m) / 2
+    return number(np.minimum(low - margin, -half)), number(np.maximum(high + margin, half))
 
 
 def slide_height(m: Mechanism) -> Any:

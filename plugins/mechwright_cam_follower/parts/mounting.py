@@ -2,11 +2,15 @@
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
-from mechwright import Hub, Mounting, MountingError, Post, Slideway, Spindle
+from mechwright import DesignError, Hub, Mounting, MountingError, Post, Slideway, Spindle
+from mechwright.contracts.finding import Change
+from mechwright.machine.frame.fixing import fixing
 from mechwright.machine.frame.shafts import LEAST_COLLAR, RELIEF
 from mechwright.standards.linear_guides import linear_guides
+from mechwright.standards.stock import plate_stock
 from mechwright_cam_follower.kinematics.extremes import face_ends, load_peak
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.kinematics.motion import CAM, FOLLOWER
@@ -23,22 +27,23 @@ def mounting_of(m: Mechanism) -> Mounting:
     Raises
     ------
     MountingError
-        A slide has no linear guide, a follower no spring of its own or to buy, the cams are two, or the cam has
-        no bore.
+        A slide has no linear guide, a follower no spring of its own or to buy, the cams are two, or the cam
+        has no bore.
     """
     if m.given.conjugate:
         raise MountingError(
-            "parameters.conjugate: the cams of a pair sit on both sides of the follower, and no frame is made "
-            "for them; leave [machine] out"
+            "parameters.conjugate: the cams of a pair sit on both sides of the follower, and no frame is "
+            "made for them; leave [machine] out"
         )
     if m.given.bore == 0:
         raise _boreless()
     if m.slides:
         _refuse_rails(m)
+        _refuse_thickness(m)
     if m.given.spring is None and not any(getattr(m.given, name) is not None for name in SPRINGS):
         raise MountingError(
-            'parameters.spring: nothing says which spring holds the follower on its cam; set spring = "auto", or '
-            "state its force and rate",
+            "parameters.spring: nothing says which spring holds the follower on its cam; "
+            'set spring = "auto", or state its force and rate',
             ({"parameters.spring": AUTO},),
         )
     torque = load_peak(m, "torque_max").value
@@ -66,12 +71,37 @@ def _refuse_rails(m: Mechanism) -> None:
         if guide is None
         else f"{guide.name} is {guide.height:g} mm high, and {need:g} mm are between slide and bearing plate"
     )
-    cure = (
-        f'set guide = "{able[0]}"'
-        if able
-        else f"make the cam {need - linear_guides()[-1].height:g} mm thinner"
+    changes: list[Change]
+    if able:
+        cure, changes = f'set guide = "{able[0]}"', [{"parameters.guide": one} for one in able]
+    else:
+        thin = m.given.thickness - (need - linear_guides()[-1].height)
+        cure, changes = f"set thickness = {thin:g}", [{"parameters.thickness": thin}]
+    key = next(iter(changes[0]))
+    raise MountingError(f"{key}: {said}; {cure}", tuple(changes))
+
+
+def _refuse_thickness(m: Mechanism) -> None:
+    """No screw that is sold goes through the slide deep enough, and not too deep, into its carriage."""
+    guide, thick = m.given.linear_guide, follower_depth(m)
+    if guide is None:
+        return
+
+    def fits(one: float) -> bool:
+        with suppress(DesignError):
+            return fixing(guide.thread, one, guide.depth) is not None
+        return False
+
+    if fits(thick):
+        return
+    key = "parameters.thickness" if m.flat else "parameters.follower_thickness"
+    sold = sorted(plate_stock(m.given.material).thicknesses, key=lambda one: abs(one - thick))
+    works = [one for one in sold if fits(one)]
+    raise MountingError(
+        f"{key}: no screw M{guide.thread:g} that is sold joins a slide of {thick:g} mm to the carriage of "
+        f"{guide.name}; set {key.partition('.')[2]} = {works[0]:g}",
+        tuple({key: one} for one in works),
     )
-    raise MountingError(f"parameters.guide: {said}; {cure}", tuple({"parameters.guide": one} for one in able))
 
 
 def _slideways(m: Mechanism) -> Iterator[Slideway]:
@@ -96,14 +126,15 @@ def _slideways(m: Mechanism) -> Iterator[Slideway]:
 def _posts(m: Mechanism) -> tuple[Post, ...]:
     """The pin that the spring pulls at; none without a spring that is bought."""
     place = spring_place(m)
-    if place is None or place.held.post is None:
+    diameter = None if place is None else place.held.post
+    if place is None or diameter is None:
         return ()
     at, held = place.stands, place.held
     return (
         Post(
             "spring-post",
             (at.real, at.imag),
-            held.post,
+            diameter,
             place.z + held.shank,
             held.post_head,
             frozenset({SPRING}),

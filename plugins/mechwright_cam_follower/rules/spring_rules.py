@@ -96,11 +96,9 @@ def _remedy(f: Failure[Mechanism]) -> str:
     if not changes:
         return "make the follower lighter, or its load smaller"
     key, value = changes[0]
-    return (
-        f'set {key} = "{value}"'
-        if isinstance(value, str)
-        else f"set {key} = {value:g}, or make the follower lighter"
-    )
+    if isinstance(value, str):
+        return f'set {key} = "{value}"'
+    return f"set {key} = {value:g}, or make the follower lighter"
 
 
 def _when(m: Mechanism) -> bool:
@@ -134,9 +132,9 @@ def _words(m: Mechanism) -> str:
     return (
         f"extension spring {held.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at {long:.4g} "
         f"mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm on the "
-        f"follower, and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; {least.value:.3g} {_unit(m)} "
-        f"are left over what is asked, at {math.degrees(least.angle):.1f} degrees, and a tenth where its force "
-        f"is {SCATTER:.0%} less; friction and weights are not counted"
+        f"follower, and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; {least.value:.3g} "
+        f"{_unit(m)} are left over what is asked, at {math.degrees(least.angle):.1f} degrees, and a tenth of "
+        f"what is asked if its force is {SCATTER:.0%} less; friction and weights are not counted"
     )
 
 

@@ -85,7 +85,8 @@ class Hooks:
         if self.tail == 0:
             return np.asarray(self.apart + lift)
         swing = lift - self.middle
-        return np.hypot(self.tail * (1 - np.cos(swing)), self.apart + self.tail * np.sin(swing))
+        across, along = self.tail * (1 - np.cos(swing)), self.apart + self.tail * np.sin(swing)
+        return np.asarray(np.hypot(across, along))
 
     def lever(self, lift: Array) -> Array:
         """Rate of the distance over the lift: mm/rad of a lever, 1 of a slide."""

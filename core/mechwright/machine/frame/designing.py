@@ -216,7 +216,7 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
         (upper if post.hangs else lower).append(post_hole(post, thickness))
         add_post(kit, post, levels.upper + thickness if post.hangs else frame.under)
     for way in frame.slideways:
-        lower += rail_holes(way, thickness)
+        lower += rail_holes(way)
     if bracket is not None:
         lower += pillar_holes(bracket, thickness)
     kit.places["lower-carrier"] = Place()

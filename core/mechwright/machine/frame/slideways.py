@@ -16,6 +16,9 @@ from mechwright.machine.frame.seats import LEAST_WALL
 from mechwright.machine.frame.standing import Disc
 from mechwright.standards.screws import ENGAGEMENT, screw
 
+DEPTH = 6.5
+"""Of the holes under a rail, mm: deeper than its screws go, as deep as the mill of an M3 thread reaches."""
+
 
 def floor_of(ways: Sequence[Slideway], needed: float) -> float:
     """Height of the plate on which rails lie, mm; raises DesignError where the plate has to be lower."""
@@ -23,8 +26,8 @@ def floor_of(ways: Sequence[Slideway], needed: float) -> float:
     if low > needed:
         way = ways[0]
         raise DesignError(
-            f"{way.key}: the rail of {way.guide.name} lies at z = {low:g} mm, and the bearing plate has to be "
-            f"at {needed:g} mm or below; take a larger guide, or a thinner cam"
+            f"{way.key}: the rail of {way.guide.name} lies at z = {low:g} mm, and the bearing plate has to "
+            f"be at {needed:g} mm or below; take a larger guide, or a thinner cam"
         )
     return low
 
@@ -42,10 +45,10 @@ def rail_discs(way: Slideway) -> Iterator[Disc]:
         yield Disc(way.at(along), max(way.guide.rail / 2, way.guide.thread / 2 + LEAST_WALL))
 
 
-def rail_holes(way: Slideway, thickness: float) -> list[Hole]:
-    """Of the plate under a rail, which get threads."""
+def rail_holes(way: Slideway) -> list[Hole]:
+    """Blind ones of the plate under a rail, which get threads."""
     return [
-        Hole.through(_name(k), way.at(along), way.guide.thread, thickness)
+        Hole(_name(k), way.at(along), ((way.guide.thread, 0.0, DEPTH),))
         for k, along in enumerate(way.guide.rail_holes(way.length), start=1)
     ]
 
