@@ -26,8 +26,8 @@ from mechwright_cam_follower.parts.parts import parts_of
 from mechwright_cam_follower.parts.spring_parts import spring_place
 from mechwright_cam_follower.rules.spring_rules import BOUGHT_SPRING
 from mechwright_cam_follower.rules.validity import with_values
-from mechwright_cam_follower.spring.choice import RESERVE, SAFE, held_of
-from mechwright_cam_follower.spring.hooks import Held, Hooks
+from mechwright_cam_follower.spring.choice import RESERVE, SAFE, mounted_spring
+from mechwright_cam_follower.spring.hooks import Hooks, MountedSpring
 
 FAMILY = CamFollower()
 MACHINE = {
@@ -58,12 +58,12 @@ def test_a_spring_presses_by_virtual_work(tail, apart, middle, away):
 
 
 def test_a_spring_square_to_its_tail_has_the_tail_as_lever():
-    held = Held(ExtensionSpring(1.25, 12.5, 40), Hooks(20.0, 60.0, 0.2), 8.0, 0.4, 19.0)
+    mounted = MountedSpring(ExtensionSpring(1.25, 12.5, 40), Hooks(20.0, 60.0, 0.2), 8.0, 0.4, 19.0)
     middle = np.array(0.2)
     length = 60 + 0.8 * 8
-    assert held.length(middle) == pytest.approx(length)
-    force = held.spring.initial + held.spring.rate * (length - 40)
-    assert held.press(middle) == pytest.approx(0.02 * force)
+    assert mounted.length(middle) == pytest.approx(length)
+    force = mounted.spring.initial + mounted.spring.rate * (length - 40)
+    assert mounted.press(middle) == pytest.approx(0.02 * force)
 
 
 def test_places_are_those_of_the_hooks():
@@ -74,7 +74,7 @@ def test_places_are_those_of_the_hooks():
     assert place is not None
     pin = motion.poses["spring-pin"].position
     apart = np.hypot(pin[:, 0] - place.stands.real, pin[:, 1] - place.stands.imag)
-    assert_allclose(apart, place.held.hooks.distance(motion["lift"]), atol=1e-9)
+    assert_allclose(apart, place.mounted.hooks.distance(motion["lift"]), atol=1e-9)
     # The spring turns the lever counter-clockwise, towards the cam.
     axis, along = np.array([m.axis, 0.0]), pin[0, :2]
     pull = np.array([place.stands.real, place.stands.imag]) - along
@@ -114,28 +114,28 @@ def test_random_cams_keep_their_follower(contact, swing, rise, speed, inertia, l
     )
     if errors(FAMILY.check(params), Stage.MOTION):
         return
-    m, held = mechanism_of(params), held_of(params)
+    m, mounted = mechanism_of(params), mounted_spring(params)
     found = [*BOUGHT_SPRING.findings(m, quick=True)]
-    assert (held is None) == bool(found)
-    if held is None:
+    assert (mounted is None) == bool(found)
+    if mounted is None:
         return
     rates = m.cycle.at(np.linspace(0, math.tau, 2003))
     need = -(inertia * rates.a * m.omega**2 + load)
-    press = (1 - SCATTER) * held.press(rates.s)
+    press = (1 - SCATTER) * mounted.press(rates.s)
     assert (press > np.where(need > 0, (RESERVE - 0.002) * need, need)).all()
-    low, high = held.pull(np.array([0.0, m.stroke]))
-    assert fatigue_safety(low, high, held.spring.wire, held.spring.mean) >= SAFE
-    assert held.length(np.array(m.stroke)) <= held.spring.longest
-    assert held.length(np.array(0.0)) > held.spring.free
-    assert held.pin < held.spring.inside
+    low, high = mounted.pull(np.array([0.0, m.stroke]))
+    assert fatigue_safety(low, high, mounted.spring.wire, mounted.spring.mean) >= SAFE
+    assert mounted.length(np.array(m.stroke)) <= mounted.spring.longest
+    assert mounted.length(np.array(0.0)) > mounted.spring.free
+    assert mounted.pin < mounted.spring.inside
 
 
 def test_the_force_of_the_spring_is_in_loads_and_drive():
     params = design()
     motion = motion_of(params, SAMPLES)
-    m, held = mechanism_of(params), held_of(params)
-    assert held is not None
-    assert_allclose(motion.loads["pressed"].share, held.press(motion["lift"]) - 0.5)
+    m, mounted = mechanism_of(params), mounted_spring(params)
+    assert mounted is not None
+    assert_allclose(motion.loads["pressed"].share, mounted.press(motion["lift"]) - 0.5)
     drive = drive_of(motion, parts_of(params), MachineSettings(direction="forwards"))
     torque = motion["torque"]
     assert_allclose(drive.runs[0].torque, m.sense * torque, rtol=0, atol=2e-3 * np.abs(torque).max())
@@ -167,7 +167,7 @@ def test_a_spring_that_is_too_weak_is_refused_and_auto_helps():
     assert "0.5x5x25" in finding.message
     assert "lacks" in finding.message
     assert finding.proposed == ({"parameters.spring": "auto"},)
-    assert held_of(design()) is not None
+    assert mounted_spring(design()) is not None
 
 
 def test_a_cam_too_fast_for_every_spring_is_refused_with_a_speed_that_works():
@@ -175,8 +175,8 @@ def test_a_cam_too_fast_for_every_spring_is_refused_with_a_speed_that_works():
     finding = next(one for one in FAMILY.check(params) if one.code == "follower.spring")
     assert "the nearest" in finding.message
     speed = finding.proposed[0]["parameters.speed"]
-    assert held_of(design(speed=speed)) is not None
-    assert held_of(design(speed=1.05 * speed)) is None
+    assert mounted_spring(design(speed=speed)) is not None
+    assert mounted_spring(design(speed=1.05 * speed)) is None
 
 
 def test_parts_heavier_than_the_stated_inertia_are_refused():
@@ -191,10 +191,10 @@ def test_parts_heavier_than_the_stated_inertia_are_refused():
 def test_own_inertia_of_a_lever_is_that_of_a_bar():
     """A slot-shaped bar with its holes, the roller and the pin, by parallel axes."""
     params = design()
-    m, held = mechanism_of(params), held_of(params)
-    assert held is not None
+    m, mounted = mechanism_of(params), mounted_spring(params)
+    assert mounted is not None
     total, steel = own_inertia(m) * 1e6, 7.85e-6
-    tail, arm, half, t = held.hooks.tail, m.arm, 12.0, 8.0
+    tail, arm, half, t = mounted.hooks.tail, m.arm, 12.0, 8.0
     long = arm + tail
     middle = (arm - tail) / 2
     box = long * 2 * half * t * steel
@@ -209,9 +209,9 @@ def test_own_inertia_of_a_lever_is_that_of_a_bar():
         mass = math.pi * radius**2 * height * steel
         return mass * (radius**2 / 2 + at**2)
 
-    inertia -= disc(6, t, 0) + disc(4, t, arm) + disc(held.pin / 2, t, tail)
-    inertia += disc(9, 10, arm) + disc(4, 9, arm) + disc(held.pin / 2, t, tail)
-    inertia += sum(disc(step.diameter / 2, step.length, tail) for step in held.head)
+    inertia -= disc(6, t, 0) + disc(4, t, arm) + disc(mounted.pin / 2, t, tail)
+    inertia += disc(9, 10, arm) + disc(4, 9, arm) + disc(mounted.pin / 2, t, tail)
+    inertia += sum(disc(step.diameter / 2, step.length, tail) for step in mounted.head)
     assert total == pytest.approx(inertia, rel=0.002)
 
 

@@ -5,10 +5,6 @@ Glossary
 spindle
     An axis about which a body of the motion turns in the frame. It is upright, and goes through the body's
     origin.
-post
-    An upright pin of the mechanism in a bearing plate.
-slideway
-    A linear guide on the lower bearing plate, which carries a body that slides.
 hub
     What sits on the spindle's shaft and turns with it: one part, or several on each other with one bore.
 share
@@ -20,10 +16,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.contracts.finding import Change
-from mechwright.contracts.turned import Step
+from mechwright.contracts.on_plates import Post, Slideway
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
-from mechwright.standards.linear_guides import LinearGuide
 
 
 class MountingError(DesignError):
@@ -121,84 +116,6 @@ class Spindle:
     torque: float = 1.0
     force: float = 0.0
     origin: float = 0.0
-
-
-@dataclass(frozen=True)
-class Post:
-    """An upright pin of the mechanism that stands in a bearing plate, as of a spring.
-
-    Parameters
-    ----------
-    name
-        Of its part.
-    point
-        Where it stands in the ground, mm.
-    diameter
-        Of its shank, mm, from the plate to ``low``.
-    low, head
-        Height, mm, at which its other end begins, and the steps of that.
-    holds
-        Bodies of the motion that go around that end.
-    key
-        The design-file key without which there is no such pin.
-    hangs
-        Whether it hangs from the upper plate, else it stands in the lower one.
-    """
-
-    name: str
-    point: Point
-    diameter: float
-    low: float
-    head: tuple[Step, ...]
-    holds: frozenset[str] = frozenset()
-    key: str = ""
-    hangs: bool = False
-
-    @property
-    def tip(self) -> float:
-        """Height of its free end, mm."""
-        length = sum(step.length for step in self.head)
-        return self.low - length if self.hangs else self.low + length
-
-
-@dataclass(frozen=True)
-class Slideway:
-    """A linear guide whose rail lies on the lower bearing plate, and whose carriage carries a body.
-
-    Parameters
-    ----------
-    guide
-        Its size.
-    body
-        Of the motion, on the carriage; it does not turn.
-    start, angle
-        Middle of the rail's first end, mm, and the direction of the way, rad.
-    length
-        Of the rail, mm.
-    low
-        Height of the rail's base, mm: the carriage's upper face carries the body.
-    carriage
-        Middle of the carriage in the body's coordinates, mm.
-    grip
-        Thickness of what the screws of the carriage go through, mm.
-    key
-        The design-file key of the guide.
-    """
-
-    guide: LinearGuide
-    body: str
-    start: Point
-    angle: float
-    length: float
-    low: float
-    carriage: Point
-    grip: float
-    key: str
-
-    def at(self, along: float, across: float = 0.0) -> Point:
-        """A place of the rail in the ground, mm."""
-        c, s = math.cos(self.angle), math.sin(self.angle)
-        return self.start[0] + c * along - s * across, self.start[1] + s * along + c * across
 
 
 _ANGLES = (180.0, 90.0, -90.0, 135.0, -135.0, 45.0, -45.0, 0.0)

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 from mechwright.contracts.bought import BlindThread, Bought
+from mechwright.contracts.on_plates import GuideSize
 from mechwright.contracts.shape import Revolve, Shape, box, ring
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
@@ -18,6 +19,9 @@ STRIP = 216.0
 
 CLEAR = 0.1
 """Between carriage and rail as they are drawn, mm: their balls are not."""
+
+UNDERCUT = 1.0
+"""How deep the grooves of the balls are drawn, mm: the carriage comes onto its rail from an end alone."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +64,11 @@ class LinearGuide:
         x, y = self.along / 2, self.across / 2
         return ((-x, -y), (x, -y), (x, y), (-x, y))
 
+    @property
+    def _waist(self) -> float:
+        """Height below which the rail is drawn narrower, mm."""
+        return (self.under + self.high) / 2
+
     def rail_length(self, least: float) -> float:
         """The shortest rail that is cut with equal ends and is at least so long, mm.
 
@@ -74,9 +83,27 @@ class LinearGuide:
         count = round((length - 2 * self.end) / self.pitch) + 1
         return tuple(self.end + k * self.pitch for k in range(count))
 
+    def cut(self, least: float) -> GuideSize:
+        """With the shortest rail that is at least so long, mm."""
+        length = self.rail_length(least)
+        return GuideSize(
+            self.name,
+            self.rail_bought(length),
+            self.carriage_bought,
+            length,
+            self.width,
+            self.height,
+            self.rail_holes(length),
+            self.high - self.sunk,
+            self.carriage_holes,
+            self.thread,
+            self.depth,
+        )
+
     def rail_bought(self, length: float) -> Bought:
         """How a rail is ordered."""
-        half = self.rail / 2
+        half, foot = self.rail / 2, self._waist
+        waist = half - UNDERCUT
         less = [
             Revolve(one.profile, (x, 0.0))
             for x in self.rail_holes(length)
@@ -90,7 +117,13 @@ class LinearGuide:
             f"holes {self.end:g} mm from both ends",
             "",
             round(self.line * length, 1),
-            Shape((box((0.0, length), (-half, half), (0.0, self.high)),), tuple(less)),
+            Shape(
+                (
+                    box((0.0, length), (-half, half), (foot, self.high)),
+                    box((0.0, length), (-waist, waist), (0.0, foot)),
+                ),
+                tuple(less),
+            ),
             "with its carriage, of one maker",
         )
 
@@ -99,7 +132,9 @@ class LinearGuide:
         """How the carriage is ordered."""
         x, y, rail = self.length / 2, self.width / 2, self.rail / 2 + CLEAR
         whole = box((-x, x), (-y, y), (self.under, self.height))
-        channel = box((-x, x), (-rail, rail), (self.under, self.high + CLEAR))
+        foot = self._waist - CLEAR
+        channel = box((-x, x), (-rail, rail), (foot, self.high + CLEAR))
+        waist = box((-x, x), (UNDERCUT - rail, rail - UNDERCUT), (self.under, foot))
         holes = [
             Revolve(ring(0.0, self.thread, self.depth, self.height - self.depth).profile, place)
             for place in self.carriage_holes
@@ -111,7 +146,7 @@ class LinearGuide:
             f"carriage of a miniature linear guide, size {self.size:g}, standard length, light preload",
             "",
             self.mass,
-            Shape((whole,), (channel, *holes)),
+            Shape((whole,), (channel, waist, *holes)),
             "its balls fall out when it leaves its rail",
             threads,
         )

@@ -26,7 +26,7 @@ from mechwright.mechanics.laws import Rates
 from mechwright.mechanics.strength.hertz import SHARPEST, contact_modulus, line_pressure, relative_radius
 from mechwright_cam_follower.kinematics.contact import Contact
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
-from mechwright_cam_follower.spring.choice import held_of, inertia_at, load_of
+from mechwright_cam_follower.spring.choice import inertia_at, load_of, mounted_spring
 
 LOCKED = 89.0
 """Degrees of pressure angle beyond which a cam locks and does not push; forces are given as those there."""
@@ -48,8 +48,8 @@ def spring_at(m: Mechanism, lift: Array) -> Array:
         preload, rate = spring_of(m)
         return np.asarray(preload + rate * lift)
     if m.single:
-        held = held_of(m.given)
-        return np.zeros_like(lift) if held is None else held.press(lift)
+        mounted = mounted_spring(m.given)
+        return np.zeros_like(lift) if mounted is None else mounted.press(lift)
     lifts = np.broadcast_to(lift, (m.size, np.shape(lift)[-1]))
     return np.stack([spring_at(m.row(place), one) for place, one in enumerate(lifts)])
 

@@ -130,8 +130,8 @@ def _poses(m: Mechanism, contacts: tuple[Contact, ...], rates: Rates) -> dict[st
     if spring is not None:
         pin = origin + spring.on_follower * np.exp(1j * angle)
         poses[SPRING_PIN] = Poses.planar(pin.real, pin.imag, angle)
-        still, turn = np.full(pin.shape, spring.stands), np.full(pin.shape, spring.direction)
-        poses[SPRING] = Poses.planar(still.real, still.imag, turn)
+        stands = spring.stands + (pin - spring.moves if m.slides else 0j * pin)
+        poses[SPRING] = Poses.planar(stands.real, stands.imag, np.full(pin.shape, spring.direction))
     if m.railed:
         for body, place in zip(RAILS, rails_of(m).places, strict=True):
             poses[body] = Poses.planar(place.real, place.imag, np.zeros_like(angle))
@@ -149,7 +149,9 @@ def _joints(m: Mechanism) -> dict[str, Joint]:
     if spring is not None:
         at = spring.on_follower
         found[SPRING_PIN] = Joint("fixed", FOLLOWER, SPRING_PIN, (at.real, at.imag, 0.0))
-        found[SPRING] = Joint("fixed", GROUND, SPRING, (spring.stands.real, spring.stands.imag, 0.0))
+        # It is drawn on the pin that is there first: the standing one of a lever, that of a slide itself.
+        on, other = (FOLLOWER, at + spring.stands - spring.moves) if m.slides else (GROUND, spring.stands)
+        found[SPRING] = Joint("fixed", on, SPRING, (other.real, other.imag, 0.0))
     return found
 
 

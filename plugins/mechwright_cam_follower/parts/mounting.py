@@ -11,14 +11,14 @@ from mechwright.machine.frame.fixing import fixing
 from mechwright.machine.frame.shafts import LEAST_COLLAR, RELIEF
 from mechwright.standards.linear_guides import linear_guides
 from mechwright.standards.stock import plate_stock
+from mechwright_cam_follower.field_kinds import AUTO, SPRINGS
 from mechwright_cam_follower.kinematics.extremes import face_ends, load_peak
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.kinematics.motion import CAM, FOLLOWER
-from mechwright_cam_follower.parameters import AUTO, SPRINGS
 from mechwright_cam_follower.parts.follower_dimensions import follower_depth, follower_foot
 from mechwright_cam_follower.parts.parts import second_foot
 from mechwright_cam_follower.parts.slide_dimensions import BESIDE_GUIDE, carriage_place, rail_start
-from mechwright_cam_follower.parts.spring_parts import SPRING, spring_place
+from mechwright_cam_follower.parts.spring_parts import SPRING, hooking, spring_place
 
 
 def mounting_of(m: Mechanism) -> Mounting:
@@ -111,11 +111,10 @@ def _slideways(m: Mechanism) -> Iterator[Slideway]:
         return
     way = guide.length + m.stroke + 2 * BESIDE_GUIDE
     yield Slideway(
-        guide,
+        guide.cut(way),
         FOLLOWER,
         (m.offset, rail_start(m)),
         math.pi / 2,
-        guide.rail_length(way),
         follower_foot(m) - guide.height,
         (0.0, carriage_place(m)),
         follower_depth(m),
@@ -126,20 +125,21 @@ def _slideways(m: Mechanism) -> Iterator[Slideway]:
 def _posts(m: Mechanism) -> tuple[Post, ...]:
     """The pin that the spring pulls at; none without a spring that is bought."""
     place = spring_place(m)
-    diameter = None if place is None else place.held.post
+    diameter = None if place is None else place.mounted.post
     if place is None or diameter is None:
         return ()
-    at, held = place.stands, place.held
+    at, mounted = place.stands, place.mounted
     return (
         Post(
             "spring-post",
             (at.real, at.imag),
             diameter,
-            place.z + held.shank,
-            held.post_head,
+            place.z + mounted.shank,
+            mounted.post_head,
             frozenset({SPRING}),
             "parameters.spring",
-            held.hangs,
+            mounted.hangs,
+            hooking(place) if mounted.hangs else "",
         ),
     )
 

@@ -10,8 +10,8 @@ from mechwright.contracts.mass import KILOGRAMS
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.parts.follower_dimensions import follower_depth, follower_foot
 from mechwright_cam_follower.parts.slide_dimensions import pin_place
-from mechwright_cam_follower.spring.choice import held_of
-from mechwright_cam_follower.spring.hooks import Held
+from mechwright_cam_follower.spring.choice import mounted_spring
+from mechwright_cam_follower.spring.hooks import MountedSpring
 
 SPRING, SPRING_PIN = "spring", "spring-pin"
 """Bodies: the spring, and its pin on the follower."""
@@ -38,7 +38,7 @@ class SpringPlace:
         Height of the follower's upper face, mm.
     """
 
-    held: Held
+    mounted: MountedSpring
     stands: complex
     moves: complex
     on_follower: complex
@@ -52,14 +52,14 @@ class SpringPlace:
 
 def spring_place(m: Mechanism) -> SpringPlace | None:
     """Where the spring of one design is; None without one that is bought."""
-    held = None if m.given.spring is None else held_of(m.given)
-    if held is None:
+    mounted = None if m.given.spring is None else mounted_spring(m.given)
+    if mounted is None:
         return None
-    hooks, top = held.hooks, follower_foot(m) + follower_depth(m)
+    hooks, top = mounted.hooks, follower_foot(m) + follower_depth(m)
     if m.slides:
         moves = complex(m.offset, m.start + pin_place(m) + m.given.ends[-1])
         stands = complex(m.offset, m.start + pin_place(m) - hooks.apart)
-        return SpringPlace(held, stands, moves, 1j * pin_place(m), top)
+        return SpringPlace(mounted, stands, moves, 1j * pin_place(m), top)
     # A lever's +x goes from its axis to its roller or along its face, under this angle where it is lowest.
     lowest = math.pi / 2 + m.start if m.flat else math.pi - m.start
     start = math.radians(m.given.ends[-1])
@@ -67,7 +67,18 @@ def spring_place(m: Mechanism) -> SpringPlace | None:
     axis = complex(m.axis)
     stands = axis - hooks.tail * along - 1j * hooks.apart * along
     moves = axis - hooks.tail * cmath.exp(1j * (lowest - start))
-    return SpringPlace(held, stands, moves, complex(-hooks.tail), top)
+    return SpringPlace(mounted, stands, moves, complex(-hooks.tail), top)
+
+
+def hooking(place: SpringPlace) -> str:
+    """How the spring is hooked, for whoever puts it in."""
+    mounted, apart = place.mounted, abs(place.moves - place.stands)
+    first = "the pin of the slide first, and over the hanging one" if mounted.hangs else "both pins"
+    return (
+        f"Hook the spring over {first} with a spring puller: it is stretched by "
+        f"{apart + mounted.neck - mounted.spring.free:.1f} mm and pulls with "
+        f"{float(mounted.pull_at(apart)):.3g} N. Keep fingers away."
+    )
 
 
 def spring_pin(m: Mechanism) -> dict[str, tuple[Point, float]]:
@@ -75,7 +86,7 @@ def spring_pin(m: Mechanism) -> dict[str, tuple[Point, float]]:
     place = spring_place(m)
     if place is None:
         return {}
-    return {SPRING_PIN: ((place.on_follower.real, place.on_follower.imag), place.held.pin)}
+    return {SPRING_PIN: ((place.on_follower.real, place.on_follower.imag), place.mounted.pin)}
 
 
 def spring_parts(m: Mechanism) -> list[Part]:
@@ -83,21 +94,24 @@ def spring_parts(m: Mechanism) -> list[Part]:
     place = spring_place(m)
     if place is None:
         return []
-    held, depth = place.held, follower_depth(m)
-    pin = Turned((Step(held.pin, depth), *held.head))
+    mounted, depth = place.mounted, follower_depth(m)
+    pin = Turned((Step(mounted.pin, depth), *mounted.head))
     apart = abs(place.moves - place.stands)
-    bought = held.spring.bought(apart, held.pin + 2 * LOOSE)
-    note = (
-        f"Hook the spring over both pins last, with a spring puller: it is stretched by "
-        f"{apart + held.neck - held.spring.free:.1f} mm and pulls with {float(held.pull_at(apart)):.3g} N. "
-        "Keep fingers away."
-    )
-    marks = (FittingMark(note, ()),)
-    z = place.z + held.height
+    bought = mounted.spring.bought(apart, mounted.pin + 2 * LOOSE)
+    marks = () if mounted.hangs else (FittingMark(hooking(place)),)
+    z = place.z + mounted.height
     return [
         Part(SPRING_PIN, None, 0, STEEL, (Instance(SPRING_PIN, follower_foot(m)),), GREY, turned=pin),
         Part(
-            SPRING, None, 0, STEEL, (Instance(SPRING, z),), BLACK, bought=bought, marks=marks, play=held.pin
+            SPRING,
+            None,
+            0,
+            STEEL,
+            (Instance(SPRING, z),),
+            BLACK,
+            bought=bought,
+            marks=marks,
+            play=mounted.pin,
         ),
     ]
 
@@ -109,14 +123,14 @@ def spring_hole_area(m: Mechanism) -> float:
 
 def _of_spring(m: Mechanism) -> float:
     place = spring_place(m)
-    return math.nan if place is None else place.held.spring.mass / 1000
+    return math.nan if place is None else place.mounted.spring.mass / 1000
 
 
 def _of_pin(m: Mechanism) -> float:
     place = spring_place(m)
     if place is None:
         return math.nan
-    steps = (Step(place.held.pin, follower_depth(m)), *place.held.head)
+    steps = (Step(place.mounted.pin, follower_depth(m)), *place.mounted.head)
     volume = sum(math.pi / 4 * step.diameter**2 * step.length for step in steps)
     return KILOGRAMS * material(STEEL).density * volume
 

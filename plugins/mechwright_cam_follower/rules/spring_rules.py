@@ -14,14 +14,15 @@ from mechwright.standards.linear_guides import linear_guides
 from mechwright.standards.spring_strength import fatigue_safety
 from mechwright.standards.springs import SCATTER
 from mechwright.tolerances import exceeds
+from mechwright_cam_follower.field_kinds import AUTO
 from mechwright_cam_follower.kinematics.extremes import face_ends, load_peak, pressure_peak, weakest
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
-from mechwright_cam_follower.parameters import AUTO, CamParams
+from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.parts.follower_dimensions import follower_depth
 from mechwright_cam_follower.parts.moved_mass import own_inertia, own_mass
 from mechwright_cam_follower.parts.slide_dimensions import carriage_place
 from mechwright_cam_follower.parts.spring_parts import spring_place
-from mechwright_cam_follower.spring.choice import SAFE, held_of, nearest
+from mechwright_cam_follower.spring.choice import SAFE, mounted_spring, nearest
 
 SPARE = 1.15
 """What is proposed over the mass or inertia of the parts: another spring has another pin and another tail."""
@@ -44,7 +45,7 @@ def _unit(m: Mechanism) -> str:
 
 def _lack(m: Mechanism) -> float:
     """0 where a spring holds the follower, else what the nearest lacks; infinite where none has room."""
-    if held_of(m.given) is not None:
+    if mounted_spring(m.given) is not None:
         return 0.0
     found = nearest(m.given)
     return math.inf if found is None else max(found[1], np.finfo(float).tiny)
@@ -57,8 +58,8 @@ def _says(f: Failure[Mechanism]) -> str:
     )
     if found is None:
         return f"{what} has room at this follower, or none lasts over its stroke"
-    held, lack = found
-    near = "" if given.spring != AUTO else f"; the nearest, {held.spring.name},"
+    mounted, lack = found
+    near = "" if given.spring != AUTO else f"; the nearest, {mounted.spring.name},"
     return (
         f"{what} holds the follower on its cam at {given.speed:g} rev/min with a safety of {SAFE:g} against "
         f"fatigue{near} lacks {lack:.3g} {_unit(f.m)}"
@@ -70,7 +71,7 @@ def _slower(params: CamParams) -> float | None:
     """The greatest speed below the present one, rev/min, that some spring bears; None where none is."""
 
     def works(speed: float) -> bool:
-        return held_of(params.model_copy(update={"speed": speed})) is not None
+        return mounted_spring(params.model_copy(update={"speed": speed})) is not None
 
     low, high = math.log(SLOWEST), math.log(params.speed)
     if not works(SLOWEST):
@@ -85,7 +86,7 @@ def _slower(params: CamParams) -> float | None:
 
 def _changes(f: Failure[Mechanism]) -> tuple[Change, ...]:
     given = f.m.given
-    if given.spring != AUTO and held_of(given.model_copy(update={"spring": AUTO})) is not None:
+    if given.spring != AUTO and mounted_spring(given.model_copy(update={"spring": AUTO})) is not None:
         return ({"parameters.spring": AUTO},)
     speed = _slower(given)
     return () if speed is None else ({"parameters.speed": speed},)
@@ -124,14 +125,14 @@ def _words(m: Mechanism) -> str:
     place = spring_place(m)
     if place is None:
         return "no spring"
-    held, ends = place.held, np.array([0.0, m.stroke])
-    low, high = held.pull(ends).tolist()
-    short, long = held.length(ends).tolist()
-    safety = fatigue_safety(low, high, held.spring.wire, held.spring.mean)
+    mounted, ends = place.mounted, np.array([0.0, m.stroke])
+    low, high = mounted.pull(ends).tolist()
+    short, long = mounted.length(ends).tolist()
+    safety = fatigue_safety(low, high, mounted.spring.wire, mounted.spring.mean)
     least = weakest(m)
     return (
-        f"extension spring {held.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at {long:.4g} "
-        f"mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm on the "
+        f"extension spring {mounted.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at "
+        f"{long:.4g} mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm on the "
         f"follower, and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; {least.value:.3g} "
         f"{_unit(m)} are left over what is asked, at {math.degrees(least.angle):.1f} degrees, and a tenth of "
         f"what is asked if its force is {SCATTER:.0%} less; friction and weights are not counted"
@@ -142,13 +143,13 @@ def _least(m: Mechanism) -> Any:
     return weakest(m).value
 
 
-def _is_held(m: Mechanism) -> bool:
-    return _when(m) and held_of(m.given) is not None
+def _is_mounted(m: Mechanism) -> bool:
+    return _when(m) and mounted_spring(m.given) is not None
 
 
 def _note(unit: str, *, slides: bool) -> Note[Mechanism]:
     return Note(
-        "follower.spring-force", _words, _least, unit, when=lambda m: m.slides == slides and _is_held(m)
+        "follower.spring-force", _words, _least, unit, when=lambda m: m.slides == slides and _is_mounted(m)
     )
 
 
@@ -179,7 +180,7 @@ def _moved(m: Mechanism) -> Iterator[Finding]:
         )
 
 
-MOVED = Procedure[Mechanism](["follower.mass", "follower.inertia"], _moved, when=_is_held)
+MOVED = Procedure[Mechanism](["follower.mass", "follower.inertia"], _moved, when=_is_mounted)
 
 
 def _tilts(m: Mechanism) -> float:
@@ -194,7 +195,9 @@ def _tilts(m: Mechanism) -> float:
         far = float(carriage_place(m)) + max(map(abs, face_ends(m)))
     low = guide.height - guide.under
     place = spring_place(m)
-    pull = 0.0 if place is None else place.held.strongest * (place.held.height + follower_depth(m) + low)
+    pull = (
+        0.0 if place is None else place.mounted.strongest * (place.mounted.height + follower_depth(m) + low)
+    )
     return (sideways * far + force * (low + m.given.thickness) + pull) / 1000 / guide.tilt
 
 

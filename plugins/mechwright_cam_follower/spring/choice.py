@@ -18,10 +18,11 @@ from mechwright.mechanics.laws import Rates
 from mechwright.standards.circlips import shaft_circlips
 from mechwright.standards.spring_strength import fatigue_safety
 from mechwright.standards.springs import SCATTER, ExtensionSpring, extension_springs
+from mechwright_cam_follower.field_kinds import AUTO
 from mechwright_cam_follower.kinematics.mechanism import Mechanism, mechanism_of
-from mechwright_cam_follower.parameters import AUTO, CamParams
+from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.parts.slide_dimensions import pin_place
-from mechwright_cam_follower.spring.hooks import NECK, POSTS, SLIP, Held, Hooks, pin_for
+from mechwright_cam_follower.spring.hooks import NECK, POSTS, SLIP, Hooks, MountedSpring, pin_for
 
 SAFE = 1.2
 """Least safety of coils and hooks against fatigue."""
@@ -64,14 +65,14 @@ def load_of(m: Mechanism) -> Any:
 
 
 @dataclass(frozen=True)
-class Asked:
+class Demand:
     """What a follower asks of its spring at lifts (k,): N of a slide, N m of a lever."""
 
     lift: Array
     press: Array
 
     @classmethod
-    def of(cls, m: Mechanism) -> "Asked":
+    def of(cls, m: Mechanism) -> "Demand":
         """Over a turn."""
         rates: Rates = m.cycle.at(np.linspace(0.0, math.tau, STATIONS))
         return cls(rates.s, -(inertia_at(m, rates.a * m.omega**2) + load_of(m)))
@@ -83,7 +84,7 @@ class Asked:
 
 
 @kept
-def held_of(params: CamParams) -> Held | None:
+def mounted_spring(params: CamParams) -> MountedSpring | None:
     """The spring of a design that has a bought one; None where none of the table holds the follower."""
     m = mechanism_of(params)
     found = [one for one in _candidates(m) if _fits(m, one)]
@@ -97,14 +98,14 @@ def held_of(params: CamParams) -> Held | None:
 
 def spring_tail(m: Mechanism) -> float:
     """From the axis of a lever to its spring's pin, mm; 0 without one."""
-    held = None if m.given.spring is None else held_of(m.given)
-    return 0.0 if held is None else held.hooks.tail
+    mounted = None if m.given.spring is None else mounted_spring(m.given)
+    return 0.0 if mounted is None else mounted.hooks.tail
 
 
-def nearest(params: CamParams) -> tuple[Held, float] | None:
+def nearest(params: CamParams) -> tuple[MountedSpring, float] | None:
     """The fit spring that lacks least, stretched as far as it may be, and what it lacks; None without one."""
     m = mechanism_of(params)
-    asked = Asked.of(m)
+    asked = Demand.of(m)
     found = [(one, asked.lacks(one.press(asked.lift)).item()) for one in _stretched(m) if _fits(m, one)]
     return min(found, key=lambda one: one[1], default=None)
 
@@ -141,20 +142,20 @@ def _hooked(m: Mechanism) -> Iterator[tuple[list[ExtensionSpring], float]]:
         yield springs, tail
 
 
-def _held(m: Mechanism, spring: ExtensionSpring, hooks: Hooks) -> Held:
+def _mounted(m: Mechanism, spring: ExtensionSpring, hooks: Hooks) -> MountedSpring:
     top, under = m.given.thickness, HEADS if m.slides else 0.0
     if not m.flat:
         top += m.given.axial_gap + m.given.follower_thickness
-    return Held(spring, hooks, pin_of(m, spring), m.stroke, top, under)
+    return MountedSpring(spring, hooks, pin_of(m, spring), m.stroke, top, under)
 
 
 def _column(values: Iterator[float]) -> Array:
     return np.array([*values])[:, None]
 
 
-def _candidates(m: Mechanism) -> Iterator[Held]:
+def _candidates(m: Mechanism) -> Iterator[MountedSpring]:
     """Every spring with its pins as near to each other as holds the follower."""
-    asked = Asked.of(m)
+    asked = Demand.of(m)
     middle = 0.0 if m.slides else m.stroke / 2
     for springs, tail in _hooked(m):
         rate, initial = _column(s.rate for s in springs), _column(s.initial for s in springs)
@@ -178,15 +179,17 @@ def _candidates(m: Mechanism) -> Iterator[Held]:
         apart = np.ceil(np.where(enough, low, far) * 10)[:, 0] / 10
         holds = (lacks(apart[:, None]) < 0)[:, 0]
         for spring, distance in zip(np.array(springs, dtype=object)[holds], apart[holds], strict=True):
-            yield _held(m, spring, Hooks(tail, float(distance), middle))
+            yield _mounted(m, spring, Hooks(tail, float(distance), middle))
 
 
-def _stretched(m: Mechanism) -> Iterator[Held]:
+def _stretched(m: Mechanism) -> Iterator[MountedSpring]:
     """Every spring with its pins so far apart that it is as long as a static load allows."""
     middle = 0.0 if m.slides else m.stroke / 2
     for springs, tail in _hooked(m):
         for spring in springs:
-            ends = (_held(m, spring, Hooks(tail, float(one), middle)) for one in _distances(m, spring, tail))
+            ends = (
+                _mounted(m, spring, Hooks(tail, float(one), middle)) for one in _distances(m, spring, tail)
+            )
             safe = [one for one in ends if _fits(m, one)]
             if safe:
                 yield safe[-1]
@@ -217,7 +220,7 @@ def _room(m: Mechanism) -> float:
     return pin - math.sqrt(max(beside**2 - m.offset**2, 0.0))
 
 
-def _fits(m: Mechanism, one: Held) -> bool:
+def _fits(m: Mechanism, one: MountedSpring) -> bool:
     """Whether coils, hooks and pins bear the force at both ends of the lift, and the pins have room."""
     ends = np.array([0.0, m.stroke])
     low, high = one.pull(ends)

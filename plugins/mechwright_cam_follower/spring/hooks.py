@@ -104,7 +104,7 @@ class Hooks:
 
 
 @dataclass(frozen=True)
-class Held:
+class MountedSpring:
     """A follower that a spring holds.
 
     Parameters

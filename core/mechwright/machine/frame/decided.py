@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mechwright.contracts.mounting import Post, Slideway
+from mechwright.contracts.on_plates import Post, Slideway
 from mechwright.machine.frame.bracket import Bracket
 from mechwright.machine.frame.coupled import Motor
 from mechwright.machine.frame.seats import Seat

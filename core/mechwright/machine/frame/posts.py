@@ -1,9 +1,12 @@
 """Pins of the mechanism that stand in the lower bearing plate, or hang from the upper one."""
 
+from dataclasses import replace
+
 import shapely
 
 from mechwright.contracts.finding import Change, Finding
-from mechwright.contracts.mounting import Post
+from mechwright.contracts.fitting_marks import FittingMark
+from mechwright.contracts.on_plates import Post
 from mechwright.contracts.surroundings import OVER, UPRIGHT, Place
 from mechwright.contracts.turned import Step, Turned
 from mechwright.machine.frame.fault import fault
@@ -58,3 +61,5 @@ def add_post(kit: Kit, post: Post, outer: float) -> None:
     length = abs(post.low - outer)
     form = Turned((Step(post.diameter, length), *post.head), chamfer=min(BREAK, post.head[-1].diameter / 8))
     kit.turned(post.name, form, post.name, -outer if post.hangs else outer)
+    if post.note:
+        kit.parts[post.name] = replace(kit.parts[post.name], marks=(FittingMark(post.note),))
