@@ -115,7 +115,7 @@ def fastenings(seats: Seats, joints: Sequence[ScrewJoint]) -> list[Fastening]:
 
 
 def _others(seats: Seats, known: set[tuple[int, int]]) -> Iterator[Fastening]:
-    """Keys and rings on their shafts, and springs on pins; pins and bushes of solids with undeclared holes."""
+    """Keys and rings on their shafts, springs on pins; pins and bushes of solids with undeclared holes."""
     for one, two in seats.touching:
         pair = frozenset((one, two))
         parts = [seats.bodies[k].part for k in (one, two)]

@@ -17,7 +17,7 @@ from mechwright.standards.table import table
 STRIP = 216.0
 """At which a thread of the carriage's steel strips, MPa: 0.6 of the strength of the weakest usual steel."""
 
-CLEAR = 0.1
+CLEAR = 0.05
 """Between carriage and rail as they are drawn, mm: their balls are not."""
 
 UNDERCUT = 1.0

@@ -54,10 +54,14 @@ def rail_start(m: Mechanism) -> Any:
 
 def carriage_place(m: Mechanism) -> Any:
     """From the origin of a slide to the middle of its carriage, mm."""
-    guide = m.given.linear_guide
-    return rail_start(m) + BESIDE_GUIDE + guide.length / 2 - m.start
+    return rail_start(m) + BESIDE_GUIDE + _carriage_length(m) / 2 - m.start
 
 
 def pin_place(m: Mechanism) -> Any:
     """From the origin of a slide to its spring's pin, mm: behind the carriage."""
-    return carriage_place(m) + m.given.linear_guide.length / 2 + PIN_ROOM
+    return carriage_place(m) + _carriage_length(m) / 2 + PIN_ROOM
+
+
+def _carriage_length(m: Mechanism) -> float:
+    guide = m.given.linear_guide
+    return 0.0 if guide is None else guide.length

@@ -130,12 +130,13 @@ def _words(m: Mechanism) -> str:
     short, long = mounted.length(ends).tolist()
     safety = fatigue_safety(low, high, mounted.spring.wire, mounted.spring.mean)
     least = weakest(m)
+    stands = f"x {place.stands.real:.2f}, y {place.stands.imag:.2f}"
     return (
         f"extension spring {mounted.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at "
-        f"{long:.4g} mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm on the "
-        f"follower, and at x {place.stands.real:.2f}, y {place.stands.imag:.2f}; {least.value:.3g} "
-        f"{_unit(m)} are left over what is asked, at {math.degrees(least.angle):.1f} degrees, and a tenth of "
-        f"what is asked if its force is {SCATTER:.0%} less; friction and weights are not counted"
+        f"{long:.4g} mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm "
+        f"on the follower, and at {stands}; {least.value:.3g} {_unit(m)} are left over what is asked, at "
+        f"{math.degrees(least.angle):.1f} degrees, and a tenth of what is asked if its force is {SCATTER:.0%} "
+        "less; friction and weights are not counted"
     )
 
 
@@ -198,7 +199,8 @@ def _tilts(m: Mechanism) -> float:
     pull = (
         0.0 if place is None else place.mounted.strongest * (place.mounted.height + follower_depth(m) + low)
     )
-    return (sideways * far + force * (low + m.given.thickness) + pull) / 1000 / guide.tilt
+    moment = sideways * far + force * (low + m.given.thickness) + pull
+    return float(moment / 1000 / guide.tilt)
 
 
 GUIDE = DesignRule[Mechanism](
@@ -210,7 +212,7 @@ GUIDE = DesignRule[Mechanism](
     remedy="take a larger guide, or load it less",
     must_be="at most",
     proposed=lambda f: tuple(
-        {"parameters.guide": one.name} for one in linear_guides() if one.size > f.m.given.linear_guide.size
+        {"parameters.guide": one.name} for one in linear_guides() if one.name > str(f.m.given.guide)
     ),
     when=lambda m: m.given.linear_guide is not None,
 )
