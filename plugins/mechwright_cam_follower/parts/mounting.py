@@ -11,7 +11,7 @@ from mechwright.machine.frame.fixing import fixing
 from mechwright.machine.frame.shafts import LEAST_COLLAR, RELIEF
 from mechwright.standards.linear_guides import linear_guides
 from mechwright.standards.stock import plate_stock
-from mechwright_cam_follower.field_kinds import AUTO, SPRINGS
+from mechwright_cam_follower.field_kinds import AUTO, DEFAULTS, SPRINGS
 from mechwright_cam_follower.kinematics.extremes import face_ends, load_peak
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.kinematics.motion import CAM, FOLLOWER
@@ -40,11 +40,12 @@ def mounting_of(m: Mechanism) -> Mounting:
     if m.slides:
         _refuse_rails(m)
         _refuse_thickness(m)
+    stated = "spring_preload" if m.slides else "spring_torque"
     if m.given.spring is None and not any(getattr(m.given, name) is not None for name in SPRINGS):
         raise MountingError(
             "parameters.spring: nothing says which spring holds the follower on its cam; "
             'set spring = "auto", or state its force and rate',
-            ({"parameters.spring": AUTO},),
+            ({"parameters.spring": AUTO}, {f"parameters.{stated}": DEFAULTS[stated]}),
         )
     torque = load_peak(m, "torque_max").value
     force = load_peak(m, "contact_force_max").value / torque if torque > 0 else 0.0

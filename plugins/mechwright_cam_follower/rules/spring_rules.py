@@ -131,12 +131,13 @@ def _words(m: Mechanism) -> str:
     safety = fatigue_safety(low, high, mounted.spring.wire, mounted.spring.mean)
     least = weakest(m)
     stands = f"x {place.stands.real:.2f}, y {place.stands.imag:.2f}"
+    left = f"{least.value:.3g} {_unit(m)} are left over what is asked"
     return (
         f"extension spring {mounted.spring.name}: {low:.3g} N at {short:.4g} mm to {high:.3g} N at "
-        f"{long:.4g} mm, safety against fatigue {safety:.3g}; its pins are at {abs(place.on_follower):.4g} mm "
-        f"on the follower, and at {stands}; {least.value:.3g} {_unit(m)} are left over what is asked, at "
-        f"{math.degrees(least.angle):.1f} degrees, and a tenth of what is asked if its force is {SCATTER:.0%} "
-        "less; friction and weights are not counted"
+        f"{long:.4g} mm, safety against fatigue {safety:.3g}; its pins are at "
+        f"{abs(place.on_follower):.4g} mm on the follower, and at {stands}; {left}, at "
+        f"{math.degrees(least.angle):.1f} degrees, and a tenth of what is asked if its force is "
+        f"{SCATTER:.0%} less; friction and weights are not counted"
     )
 
 
