@@ -44,7 +44,7 @@ def mounting_of(m: Mechanism) -> Mounting:
     if m.given.spring is None and not any(getattr(m.given, name) is not None for name in SPRINGS):
         raise MountingError(
             "parameters.spring: nothing says which spring holds the follower on its cam; "
-            'set spring = "auto", or state its force and rate',
+            f'set spring = "auto", or state {stated}, as a stage of a chain has to',
             ({"parameters.spring": AUTO}, {f"parameters.{stated}": DEFAULTS[stated]}),
         )
     torque = load_peak(m, "torque_max").value

@@ -55,8 +55,8 @@ def _of_stage(link: Link) -> Mounting:
     if isinstance(found, Mounting):
         if found.posts or found.slideways:
             raise MountingError(
-                f"stage.{link.number}.family: stage {link.number}, {link.family.name}, has a guide or the pin "
-                "of a spring on the bearing plates, and no frame of a chain has them; leave [machine] out"
+                f"stage.{link.number}.family: stage {link.number}, {link.family.name}, has a guide or the "
+                "pin of a spring on the bearing plates, and no frame of a chain has them; leave [machine] out"
             )
         return found
     raise MountingError(
