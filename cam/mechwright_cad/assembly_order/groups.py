@@ -125,19 +125,28 @@ def connected(members: Iterable[int], bond: "Sequence[tuple[int, int]]") -> list
 def bonds(bodies: Sequence[Body], motion: Motion, standing: BodyLayers) -> list[tuple[int, int]]:
     """Pairs of bodies that move as one and touch.
 
-    A ball bearing counts with the shaft that it is put on, and the carriage of a linear guide with its rail.
+    A ball bearing counts with the shaft that it is put on. The carriage of a linear guide counts with its rail,
+    and so do the screws in its threads: what it carries comes onto it.
     """
     rigidly = rigid(motion)
     heads = [rigidly[body.instance.body] for body in bodies]
     moving = [k for k, head in enumerate(heads) if head != GROUND]
     for k in [k for k, body in enumerate(bodies) if is_bearing(body)]:
         heads[k] = next((heads[m] for m in moving if m != k and standing.touch(k, m)), heads[k])
-    heads = [GROUND if is_carriage(body.part) else head for body, head in zip(bodies, heads, strict=True)]
+    for k in [k for k, body in enumerate(bodies) if is_carriage(body.part)]:
+        screws = [m for m in moving if heads[m] == heads[k] and _is_screw(bodies[m]) and standing.touch(k, m)]
+        for m in (k, *screws):
+            heads[m] = GROUND
     return [
         (one, two)
         for one, two in combinations(range(len(bodies)), 2)
         if heads[one] == heads[two] and standing.touch(one, two)
     ]
+
+
+def _is_screw(body: Body) -> bool:
+    """Whether it is a screw with a head."""
+    return body.part.bought is not None and body.part.bought.standard == "ISO 4762"
 
 
 def is_bearing(body: Body) -> bool:
