@@ -125,8 +125,8 @@ def connected(members: Iterable[int], bond: "Sequence[tuple[int, int]]") -> list
 def bonds(bodies: Sequence[Body], motion: Motion, standing: BodyLayers) -> list[tuple[int, int]]:
     """Pairs of bodies that move as one and touch.
 
-    A ball bearing counts with the shaft that it is put on. The carriage of a linear guide counts with its rail,
-    and so do the screws in its threads: what it carries comes onto it.
+    A ball bearing counts with the shaft that it is put on. The carriage of a linear guide counts with its
+    rail, and so do the screws in its threads: what it carries comes onto it.
     """
     rigidly = rigid(motion)
     heads = [rigidly[body.instance.body] for body in bodies]
