@@ -126,7 +126,7 @@ def bonds(bodies: Sequence[Body], motion: Motion, standing: BodyLayers) -> list[
     """Pairs of bodies that move as one and touch.
 
     A ball bearing counts with the shaft that it is put on. The carriage of a linear guide counts with its
-    rail, and so do the screws in its threads: what it carries comes onto it.
+    rail, and the screws in its threads by themselves: what it carries comes onto it before they do.
     """
     rigidly = rigid(motion)
     heads = [rigidly[body.instance.body] for body in bodies]
@@ -135,8 +135,9 @@ def bonds(bodies: Sequence[Body], motion: Motion, standing: BodyLayers) -> list[
         heads[k] = next((heads[m] for m in moving if m != k and standing.touch(k, m)), heads[k])
     for k in [k for k, body in enumerate(bodies) if is_carriage(body.part)]:
         screws = [m for m in moving if heads[m] == heads[k] and _is_screw(bodies[m]) and standing.touch(k, m)]
-        for m in (k, *screws):
-            heads[m] = GROUND
+        heads[k] = GROUND
+        for m in screws:
+            heads[m] = bodies[m].name
     return [
         (one, two)
         for one, two in combinations(range(len(bodies)), 2)
