@@ -27,6 +27,11 @@ def is_coupling(part: Part) -> bool:
     return part.bought is not None and part.bought.designation.startswith("flexible coupling")
 
 
+def is_carriage(part: Part) -> bool:
+    """Whether it is the carriage of a linear guide, which stays on its rail."""
+    return part.bought is not None and part.bought.designation.startswith("carriage of a ")
+
+
 def is_motor(part: Part) -> bool:
     """Whether it is a motor of the standard tables, whose shaft needs a coupling."""
     return part.bought is not None and part.bought.designation.startswith(("stepper ", "gear motor "))

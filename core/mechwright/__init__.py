@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Channel, Curve, Motion, Poses, Rates, Scalar, Trace
     from mechwright.contracts.mounting import Flange, Foot, GroundPlate, Hub, Mounting, MountingError, Spindle
     from mechwright.contracts.named import Named
+    from mechwright.contracts.on_plates import GuideSize, Post, Slideway
     from mechwright.contracts.parameters import FIRST, FITTED, GIVEN, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
@@ -105,6 +106,7 @@ _HOMES = {
     "mechwright.contracts.measure": "Measure",
     "mechwright.contracts.motion": "Channel Curve Motion Poses Rates Scalar Trace",
     "mechwright.contracts.mounting": "Flange Foot GroundPlate Hub Mounting MountingError Spindle",
+    "mechwright.contracts.on_plates": "GuideSize Post Slideway",
     "mechwright.contracts.named": "Named",
     "mechwright.contracts.parameters": "FIRST FITTED GIVEN Parameters kept",
     "mechwright.contracts.part": "Bore Colour Feature Instance OpenProfile Part Pocket Profile",
@@ -177,10 +179,13 @@ __all__ += [
     "Flange",
     "Foot",
     "GroundPlate",
+    "GuideSize",
     "Hub",
     "Measure",
     "Mounting",
     "MountingError",
+    "Post",
+    "Slideway",
     "Spindle",
 ]
 __all__ += [

@@ -8,72 +8,22 @@ from pydantic import Field, model_validator
 
 from mechwright import FIRST, FITTED, GIVEN, MaterialName, Parameters
 from mechwright.contracts.keyed import KeywayDepth, KeywayRelief, KeywayWidth, keyed_together
+from mechwright.standards.linear_guides import LinearGuide, linear_guide
 from mechwright.units import Millimetres, RevPerMin, Unit
 from mechwright_cam_follower.defaults.proportions import FOLLOWS, fitted, followed, left_out
-
-MOST_SEGMENTS = 24
-"""Of a turn: more are a table."""
-
-LEAST_ANGLE = 1.0
-"""Degrees of a segment: shorter ones are a step."""
-
-WHOLE = 1e-6
-"""Degrees by which angles may miss a full turn: what three thirds written with eight digits leave."""
-
-LawName = Literal[
-    "cycloidal",
-    "modified-sine",
-    "modified-trapezoid",
-    "3-4-5",
-    "4-5-6-7",
-    "simple-harmonic",
-    "polynomial",
-    "table",
-]
-Angle = Annotated[float, Field(ge=LEAST_ANGLE, le=360), Unit("deg")]
-Lift = Annotated[float, Field(ge=0, le=300), Unit("mm")]
-Swing = Annotated[float, Field(ge=0, le=120), Unit("deg")]
-
-DEFAULTS: dict[str, Any] = {
-    "lifts": (15.0, 15.0, 0.0, 0.0),
-    "swings": (20.0, 20.0, 0.0, 0.0),
-    "roller_radius": 8.0,
-    "offset": 0.0,
-    "face_margin": 2.0,
-    "spring_preload": 60.0,
-    "spring_rate": 4.0,
-    "spring_torque": 4.0,
-    "spring_stiffness": 4.0,
-    "load": 0.0,
-    "load_torque": 0.0,
-    "mass": 0.3,
-    "inertia": 0.001,
-}
-"""Field to its value where it is left out and the kind of follower has it."""
-
-ONLY: dict[str, tuple[str, str]] = {
-    **dict.fromkeys(
-        ("lifts", "offset", "spring_preload", "spring_rate", "load", "mass"), ("follower", "translating")
-    ),
-    **dict.fromkeys(
-        (
-            "swings",
-            "centre_distance",
-            "arm_length",
-            "spring_torque",
-            "spring_stiffness",
-            "load_torque",
-            "inertia",
-        ),
-        ("follower", "oscillating"),
-    ),
-    "roller_radius": ("contact", "roller"),
-    "face_margin": ("contact", "flat"),
-}
-"""Field to the choice that it belongs to."""
-
-SPRINGS = ("spring_preload", "spring_rate", "spring_torque", "spring_stiffness")
-"""What a conjugate pair has no use for."""
+from mechwright_cam_follower.field_kinds import (
+    DEFAULTS,
+    MOST_SEGMENTS,
+    ONLY,
+    SPRINGS,
+    WHOLE,
+    Angle,
+    GuideName,
+    LawName,
+    Lift,
+    SpringName,
+    Swing,
+)
 
 
 class CamParams(Parameters):
@@ -227,6 +177,13 @@ class CamParams(Parameters):
     spring_stiffness: Annotated[float, Field(ge=0, le=1e4), Unit("N*m/rad")] | None = Field(
         None, description="Rate of a lever's spring: its torque over the swing. Default: 4."
     )
+    spring: SpringName | None = Field(
+        None,
+        description=(
+            'Extension spring to buy: "auto", or wire x outside x free length such as "1.25x12.5x50", mm, in '
+            "place of the other keys of a spring. Default: a spring of your own with those."
+        ),
+    )
     thickness: Millimetres = Field(
         10.0, ge=1, le=100, description="Thickness of a cam, and length of a roller.", json_schema_extra=FIRST
     )
@@ -245,6 +202,13 @@ class CamParams(Parameters):
     pivot_bore: Millimetres = Field(10.0, ge=2, le=100, description="Bore of a lever for its shaft.")
     guide_length: Millimetres = Field(
         40.0, ge=5, le=500, description="Length of the rails that guide a translating follower."
+    )
+    guide: GuideName | None = Field(
+        None,
+        description=(
+            "Guide of a translating follower: rails that are cut from plate, or a linear guide to buy, which "
+            "a frame carries. Default: rails."
+        ),
     )
     guide_clearance: Millimetres = Field(
         0.05, ge=0.005, le=1, description="Between the follower and each rail."
@@ -323,6 +287,14 @@ class CamParams(Parameters):
         for name in SPRINGS:
             if self.conjugate and getattr(self, name) is not None:
                 raise ValueError(f"{name}: conjugate cams need no spring; leave it out")
+            if self.spring is not None and getattr(self, name) is not None:
+                raise ValueError(f"{name}: the spring that is bought has its own; leave it out, or spring")
+        if self.conjugate and self.spring is not None:
+            raise ValueError("spring: conjugate cams need none; leave it out")
+        if self.guide is not None and (not self.translating or self.conjugate):
+            raise ValueError("guide is for a translating follower with one cam; leave it out")
+        if self.translating and self.spring is not None and self.linear_guide is None:
+            raise ValueError('spring: that of a slide lies over a linear guide; set guide = "linear-15"')
         keyed_together(self)
 
     def value(self, name: str) -> float:
@@ -339,6 +311,11 @@ class CamParams(Parameters):
     def translating(self) -> bool:
         """Whether the follower slides."""
         return self.follower == "translating"
+
+    @property
+    def linear_guide(self) -> LinearGuide | None:
+        """That of a slide; None for a lever, and for rails that are cut from plate."""
+        return None if self.guide in {None, "rails"} else linear_guide(str(self.guide))
 
     @property
     def ends(self) -> tuple[float, ...]:

@@ -6,7 +6,8 @@ from pydantic import Field, ValidationError, model_validator
 
 from mechwright import FIRST, Parameters
 from mechwright.units import Millimetres, RevPerMin, Unit
-from mechwright_cam_follower.parameters import MOST_SEGMENTS, Angle, CamParams, LawName, Lift, Swing
+from mechwright_cam_follower.field_kinds import MOST_SEGMENTS, Angle, LawName, Lift, Swing
+from mechwright_cam_follower.parameters import CamParams
 
 CARRIED = (
     "follower",

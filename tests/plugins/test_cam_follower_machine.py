@@ -48,7 +48,7 @@ def test_a_share_has_a_number_for_each_sample():
 
 
 def test_shafts_of_a_lever_carry_the_contact():
-    params = CamParams(follower="oscillating")
+    params = CamParams(follower="oscillating", spring_torque=4.0)
     cam, lever = FAMILY.mounting(params).spindles
     m = mechanism_of(params)
     torque = load_peak(m, "torque_max").value
@@ -59,7 +59,8 @@ def test_shafts_of_a_lever_carry_the_contact():
 @pytest.mark.parametrize(
     ("table", "word"),
     [
-        ({}, "slide"),
+        ({}, "guide"),
+        ({"follower": "oscillating"}, "spring"),
         ({"conjugate": True, "follower": "oscillating"}, "pair"),
         ({"follower": "oscillating", "bore": 0}, "bore"),
     ],

@@ -14,7 +14,7 @@ from mechwright.contracts.bodies import rigid
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, ROOM, Match, matches, rounds_of
-from mechwright.standards import bushes, circlips, keys
+from mechwright.standards import bushes, circlips, keys, springs
 from mechwright_cad.assembly_order.groups import BodyLayers, is_bearing
 from mechwright_cad.bodies import Body, is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint
@@ -115,7 +115,7 @@ def fastenings(seats: Seats, joints: Sequence[ScrewJoint]) -> list[Fastening]:
 
 
 def _others(seats: Seats, known: set[tuple[int, int]]) -> Iterator[Fastening]:
-    """Keys and rings on their shafts; pins and bushes of solids whose holes are not declared."""
+    """Keys and rings on their shafts, springs on pins; pins and bushes of solids with undeclared holes."""
     for one, two in seats.touching:
         pair = frozenset((one, two))
         parts = [seats.bodies[k].part for k in (one, two)]
@@ -123,7 +123,7 @@ def _others(seats: Seats, known: set[tuple[int, int]]) -> Iterator[Fastening]:
         shaft = any(part.turned is not None for part in parts)
         if seats.head(one) != seats.head(two):
             continue
-        if standards & circlips.STANDARDS and shaft:
+        if standards & {*circlips.STANDARDS, springs.STANDARD} and shaft:
             yield Fastening("ring", pair, pair)
         elif keys.STANDARD in standards and shaft:
             yield Fastening("keyed", pair, pair)

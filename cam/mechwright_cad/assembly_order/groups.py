@@ -14,7 +14,7 @@ from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.standards import bearings
 from mechwright_cad.assembly_order.layers import UP, Layer, layers_of, mesh_points
-from mechwright_cad.bodies import Body
+from mechwright_cad.bodies import Body, is_carriage
 from mechwright_cad.interference.surface import Surface
 
 TOUCHING = 0.1
@@ -123,17 +123,31 @@ def connected(members: Iterable[int], bond: "Sequence[tuple[int, int]]") -> list
 
 
 def bonds(bodies: Sequence[Body], motion: Motion, standing: BodyLayers) -> list[tuple[int, int]]:
-    """Pairs of bodies that move as one and touch; a ball bearing counts with the shaft that it is put on."""
+    """Pairs of bodies that move as one and touch.
+
+    A ball bearing counts with the shaft that it is put on. The carriage of a linear guide counts with its
+    rail, and the screws in its threads by themselves: what it carries comes onto it before they do.
+    """
     rigidly = rigid(motion)
     heads = [rigidly[body.instance.body] for body in bodies]
     moving = [k for k, head in enumerate(heads) if head != GROUND]
     for k in [k for k, body in enumerate(bodies) if is_bearing(body)]:
         heads[k] = next((heads[m] for m in moving if m != k and standing.touch(k, m)), heads[k])
+    for k in [k for k, body in enumerate(bodies) if is_carriage(body.part)]:
+        screws = [m for m in moving if heads[m] == heads[k] and _is_screw(bodies[m]) and standing.touch(k, m)]
+        heads[k] = GROUND
+        for m in screws:
+            heads[m] = bodies[m].name
     return [
         (one, two)
         for one, two in combinations(range(len(bodies)), 2)
         if heads[one] == heads[two] and standing.touch(one, two)
     ]
+
+
+def _is_screw(body: Body) -> bool:
+    """Whether it is a screw with a head."""
+    return body.part.bought is not None and body.part.bought.standard == "ISO 4762"
 
 
 def is_bearing(body: Body) -> bool:

@@ -57,10 +57,11 @@ class Heights:
         return cls(least.reshape(wide, high), most.reshape(wide, high), (int(first[0]), int(first[1])))
 
     def slim(self) -> "Heights":
-        """The body one place narrower, all round."""
+        """The body one place narrower, all round; one so thin that nothing would be left as it is."""
         from scipy.ndimage import maximum_filter
 
-        return Heights(maximum_filter(self.low, 3, mode="constant", cval=np.inf), self.high, self.corner)
+        low = maximum_filter(self.low, 3, mode="constant", cval=np.inf)
+        return self if np.isinf(low).all() else Heights(low, self.high, self.corner)
 
     def bars(self, other: "Heights") -> bool:
         """Whether ``other``, going along the way, would meet this body."""

@@ -50,9 +50,10 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
     The motion is sampled so finely that a cubic through the samples is the motion (:func:`smooth_motion`).
     Parts of one body are compared as well, at rest. Plates that stay parallel are compared exactly in the
     plane; all other bodies as triangles in space if ``solids`` are asked for, which takes the CAD kernel
-    where a part is a solid. Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
+    where a part is a solid. What is stretched by the motion, such as a spring, is drawn at one instant and is
+    passed over. Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
     """
-    bodies = bodies_of(parts, motion)
+    bodies = [one for one in bodies_of(parts, motion) if not _is_stretched(one.part)]
     collisions: list[Collision] = []
     gaps: list[Gap] = []
     skipped: set[str] = set()
@@ -99,6 +100,10 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
         min(gaps, key=lambda gap: gap.distance, default=None),
         tuple(sorted(skipped)),
     )
+
+
+def _is_stretched(part: Part) -> bool:
+    return part.bought is not None and part.bought.stretched
 
 
 @lru_cache(maxsize=512)

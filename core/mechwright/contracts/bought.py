@@ -57,6 +57,9 @@ class Bought:
         Its threaded holes, into which screws of the machine go.
     fits
         Limits of its round faces, each by the diameter at which it is drawn.
+    stretched
+        Whether its length changes with the motion, as of a spring: it is drawn as it is at the start, and the
+        check for interference passes it over.
     """
 
     designation: str
@@ -66,6 +69,7 @@ class Bought:
     note: str = ""
     threads: tuple[BlindThread, ...] = ()
     fits: tuple[Fit, ...] = ()
+    stretched: bool = False
 
     def __post_init__(self) -> None:
         if not self.designation.strip():

@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mechwright.contracts.finding import Change
+from mechwright.contracts.on_plates import Post, Slideway
 from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry.segments import Point
 
@@ -137,6 +138,13 @@ class Mounting:
     turning_keys
         The design-file keys, in degrees, that turn parts of the mechanism about a spindle, out of the way of
         others.
+    posts
+        Pins that stand in a bearing plate.
+    slideways
+        Linear guides on the lower bearing plate, at one height.
+    fastest
+        Speed of the input, rev/min, above which the mechanism comes apart, as a follower that leaves its cam,
+        and the design-file key of the speed for which it is made; None for none.
 
     Raises
     ------
@@ -149,6 +157,9 @@ class Mounting:
     gap: tuple[str, float] | None = None
     own_shafts: tuple[str, ...] = ()
     turning_keys: tuple[str, ...] = ()
+    posts: tuple[Post, ...] = ()
+    slideways: tuple[Slideway, ...] = ()
+    fastest: tuple[float, str] | None = None
 
     def __post_init__(self) -> None:
         if sum(spindle.drives for spindle in self.spindles) != 1:

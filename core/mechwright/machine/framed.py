@@ -19,6 +19,7 @@ from mechwright.machine.frame.grounded import base_under
 from mechwright.machine.frame.sweep import LOOKS, Space, space_of
 from mechwright.machine.motors import motor_of
 from mechwright.machine.settings import MachineSettings
+from mechwright.tolerances import exceeds
 
 
 @kept
@@ -44,6 +45,10 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         drive = drive_of(family.solve(params, SAMPLES), parts, settings)
     except DesignError as error:
         return _refused("frame.drive", error)
+    if isinstance(mounting, Mounting) and mounting.fastest is not None:
+        faults = _too_fast(drive.speed * 60 / math.tau, mounting.fastest)
+        if faults:
+            return Surroundings(findings=faults)
     choice = motor_of(drive, settings)
     wanted = Wanted(
         None if choice is None else choice.motor,
@@ -87,6 +92,26 @@ def _geared(settings: MachineSettings, mounting: object) -> Finding:
         remedy=f'leave gear out, or set frame = "{free}" and build gear and motor yourself',
         stage=Stage.PARTS,
         proposed=({"machine.gear": None}, {"machine.frame": free}),
+    )
+
+
+def _too_fast(speed: float, fastest: tuple[float, str]) -> tuple[Finding, ...]:
+    """An input that is turned faster than the mechanism is made for."""
+    most, key = fastest
+    if not exceeds(speed, most):
+        return ()
+    return (
+        Finding.error(
+            "frame.speed",
+            "machine.speed",
+            f"the input turns at {speed:.6g} rev/min, and the spring holds the follower up to {most:.6g}",
+            speed,
+            most,
+            "rev/min",
+            remedy=f"set machine.speed = {most:.6g}, or {key} = {speed:.6g}",
+            stage=Stage.PARTS,
+            proposed=({"machine.speed": most}, {key: speed}),
+        ),
     )
 
 

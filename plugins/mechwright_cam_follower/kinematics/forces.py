@@ -26,25 +26,32 @@ from mechwright.mechanics.laws import Rates
 from mechwright.mechanics.strength.hertz import SHARPEST, contact_modulus, line_pressure, relative_radius
 from mechwright_cam_follower.kinematics.contact import Contact
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
+from mechwright_cam_follower.spring.choice import inertia_at, load_of, mounted_spring
 
 LOCKED = 89.0
 """Degrees of pressure angle beyond which a cam locks and does not push; forces are given as those there."""
 
 
-def inertia_at(m: Mechanism, acceleration: Array) -> Array:
-    """Force or torque, N or N·m, that an acceleration of the follower asks for, mm/s² or rad/s²."""
-    return np.asarray((m.value("mass") / 1000 if m.slides else m.value("inertia")) * acceleration)
+def spring_of(m: Mechanism) -> tuple[Any, Any]:
+    """Preload and rate of a spring that is not bought: N and N/mm of a slide, N·m and N·m/rad of a lever."""
+    names = ("spring_preload", "spring_rate") if m.slides else ("spring_torque", "spring_stiffness")
+    preload, rate = (m.value(name) for name in names)
+    return preload, rate
 
 
-def spring_of(m: Mechanism) -> tuple[Any, Any, Any]:
-    """Preload, rate and load: N, N/mm and N of a slide, N·m, N·m/rad and N·m of a lever."""
-    names = (
-        ("spring_preload", "spring_rate", "load")
-        if m.slides
-        else ("spring_torque", "spring_stiffness", "load_torque")
-    )
-    preload, rate, load = (m.value(name) for name in names)
-    return preload, rate, load
+def spring_at(m: Mechanism, lift: Array) -> Array:
+    """What the spring presses with at lifts (k,), (1, k) or (n, k): N of a slide, N·m of a lever.
+
+    It is 0 where no spring that is sold holds the follower: a finding says so.
+    """
+    if m.given.spring is None:
+        preload, rate = spring_of(m)
+        return np.asarray(preload + rate * lift)
+    if m.single:
+        mounted = mounted_spring(m.given)
+        return np.zeros_like(lift) if mounted is None else mounted.press(lift)
+    lifts = np.broadcast_to(lift, (m.size, np.shape(lift)[-1]))
+    return np.stack([spring_at(m.row(place), one) for place, one in enumerate(lifts)])
 
 
 def force_at(m: Mechanism, rates: Rates, acceleration: Array | None = None) -> Array:
@@ -54,8 +61,7 @@ def force_at(m: Mechanism, rates: Rates, acceleration: Array | None = None) -> A
     """
     if acceleration is None:
         acceleration = rates.a * m.omega**2
-    preload, rate, load = spring_of(m)
-    return np.asarray(inertia_at(m, acceleration) + (preload + load) + rate * rates.s)
+    return np.asarray(inertia_at(m, acceleration) + load_of(m) + spring_at(m, rates.s))
 
 
 @dataclass(frozen=True)
@@ -107,12 +113,12 @@ def _pressure(m: Mechanism, contact: Contact, force: Array) -> Array:
 
 def preload_needed(m: Mechanism, rates: Rates) -> Array:
     """Preload at which the force is just 0 here, with the rate as it is."""
-    preload, _, _ = spring_of(m)
+    preload, _ = spring_of(m)
     return np.asarray(preload - force_at(m, rates))
 
 
 def rate_needed(m: Mechanism, rates: Rates) -> Array:
     """Rate of the spring at which the force is just 0 here, with the preload as it is; nan at no lift."""
-    _, rate, _ = spring_of(m)
+    _, rate = spring_of(m)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(rates.s > 0, rate - force_at(m, rates) / rates.s, np.nan)

@@ -34,6 +34,11 @@ class Mechanism(DesignTable[CamParams]):
         return self.given.translating
 
     @property
+    def railed(self) -> bool:
+        """Whether rails that are cut from plate guide the follower."""
+        return self.slides and self.given.linear_guide is None
+
+    @property
     def flat(self) -> bool:
         """Whether the follower has a flat face; else it has a roller."""
         return self.given.contact == "flat"

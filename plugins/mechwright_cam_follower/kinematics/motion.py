@@ -22,11 +22,13 @@ from mechwright.mechanics.planar import Turning
 from mechwright.mechanics.planar.channels import turning_channels
 from mechwright_cam_follower.kinematics.contact import Contact, contact_of
 from mechwright_cam_follower.kinematics.figures import figures_of
-from mechwright_cam_follower.kinematics.forces import loads_at, spring_of
+from mechwright_cam_follower.kinematics.forces import loads_at, spring_at
 from mechwright_cam_follower.kinematics.mechanism import Mechanism, mechanism_of
 from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.parts.follower_dimensions import rails_of, studs_of
+from mechwright_cam_follower.parts.spring_parts import SPRING, SPRING_PIN, spring_place
 from mechwright_cam_follower.rules.closure import refuse_unclosed
+from mechwright_cam_follower.spring.choice import load_of
 
 CAM, FOLLOWER = "cam", "follower"
 """Bodies: what turns, and what follows."""
@@ -124,7 +126,13 @@ def _poses(m: Mechanism, contacts: tuple[Contact, ...], rates: Rates) -> dict[st
     if not m.flat:
         for body, contact in zip(ROLLERS, contacts, strict=False):
             poses[body] = Poses.planar(contact.centre.real, contact.centre.imag, angle)
-    if m.slides:
+    spring = spring_place(m)
+    if spring is not None:
+        pin = origin + spring.on_follower * np.exp(1j * angle)
+        poses[SPRING_PIN] = Poses.planar(pin.real, pin.imag, angle)
+        stands = spring.stands + (pin - spring.moves if m.slides else 0j * pin)
+        poses[SPRING] = Poses.planar(stands.real, stands.imag, np.full(pin.shape, spring.direction))
+    if m.railed:
         for body, place in zip(RAILS, rails_of(m).places, strict=True):
             poses[body] = Poses.planar(place.real, place.imag, np.zeros_like(angle))
     return poses
@@ -135,15 +143,21 @@ def _joints(m: Mechanism) -> dict[str, Joint]:
     if not m.flat:
         for body, place in zip(ROLLERS, studs_of(m), strict=False):
             found[body] = Joint("fixed", FOLLOWER, body, (place.real, place.imag, 0.0))
-    if m.slides:
+    if m.railed:
         found |= {body: Joint("fixed", GROUND, body) for body in RAILS}
+    spring = spring_place(m)
+    if spring is not None:
+        at = spring.on_follower
+        found[SPRING_PIN] = Joint("fixed", FOLLOWER, SPRING_PIN, (at.real, at.imag, 0.0))
+        # It is drawn on the pin that is there first: the standing one of a lever, that of a slide itself.
+        on, other = (FOLLOWER, at + spring.stands - spring.moves) if m.slides else (GROUND, spring.stands)
+        found[SPRING] = Joint("fixed", on, SPRING, (other.real, other.imag, 0.0))
     return found
 
 
 def _loads(m: Mechanism, rates: Rates) -> dict[str, Load]:
     """Spring and load on the follower, which press it to the cam, and what moves with it."""
-    preload, rate, load = spring_of(m)
-    pressed = preload + rate * rates.s + load
+    pressed = spring_at(m, rates.s) + load_of(m)
     if m.slides:
         return {"pressed": Load(FOLLOWER, force=(0.0, -1.0, 0.0), mass=m.value("mass"), share=pressed)}
     # A lever rises clockwise.

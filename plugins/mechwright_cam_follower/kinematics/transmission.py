@@ -4,7 +4,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from mechwright import Array, KinematicsError, Motion, Port, Transmission, Turning
+from mechwright import Array, KinematicsError, Motion, MountingError, Port, Transmission, Turning
 from mechwright_cam_follower.kinematics.mechanism import mechanism_of
 from mechwright_cam_follower.kinematics.motion import CAM, FOLLOWER, driven_by, turned_by
 from mechwright_cam_follower.parameters import CamParams
@@ -18,6 +18,12 @@ class CamStage(Transmission):
     own_drive: ClassVar[tuple[str, ...]] = ("speed",)
 
     def __init__(self, params: CamParams) -> None:
+        if params.spring is not None:
+            raise MountingError(
+                "spring: in a chain no spring is chosen, since no frame has its pin; leave it out and state "
+                "spring_torque and spring_stiffness",
+                ({"parameters.spring": None},),
+            )
         self.m = m = mechanism_of(params)
         refuse_unclosed(m)
         self.input = Port(CAM, (0.0, 0.0))

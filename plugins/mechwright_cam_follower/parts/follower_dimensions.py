@@ -13,9 +13,7 @@ import numpy as np
 from mechwright.contracts.design_table import number
 from mechwright_cam_follower.kinematics.extremes import face_ends, outermost
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
-
-FREE = 1.0
-"""mm between parts that pass each other in one plane, and about the shaft in its slot."""
+from mechwright_cam_follower.parts.slide_dimensions import FREE, bar_width, pin_place
 
 CORNER = 1.0
 """Radius of the corners of plain plates, mm; smaller where there is less room."""
@@ -38,19 +36,6 @@ class Rails:
     places: tuple[complex, complex]
 
 
-def shaft_room(m: Mechanism) -> Any:
-    """Half the width of the slot in which the shaft of conjugate cams passes through the follower, mm."""
-    return m.given.bore / 2 + FREE
-
-
-def bar_width(m: Mechanism) -> Any:
-    """Width of a slide's bar, mm: that of a pair has room for the shaft's slot."""
-    if not m.given.conjugate:
-        return m.given.follower_width
-    room = 2 * (shaft_room(m) + m.given.least_wall + np.abs(m.offset))
-    return number(np.maximum(m.given.follower_width, room))
-
-
 def studs_of(m: Mechanism) -> tuple[complex, ...]:
     """Centres of the rollers in the follower's frame, mm, of one design."""
     if m.slides:
@@ -65,11 +50,16 @@ def slide_sides(m: Mechanism) -> tuple[Any, Any]:
         return -bar_width(m) / 2, bar_width(m) / 2
     low, high = face_ends(m)
     margin = m.value("face_margin")
-    return low - margin, high + margin
+    if m.given.linear_guide is None:
+        return low - margin, high + margin
+    half = bar_width(m) / 2
+    return number(np.minimum(low - margin, -half)), number(np.maximum(high + margin, half))
 
 
 def slide_height(m: Mechanism) -> Any:
     """From the origin of a slide to its top, mm, where its sides end."""
+    if m.given.linear_guide is not None:
+        return pin_place(m) + (bar_width(m) / 2 if m.flat else 0.0)
     return _rail_foot(m) + m.given.guide_length - m.start
 
 
@@ -88,3 +78,13 @@ def rails_of(m: Mechanism) -> Rails:
     left = complex(m.offset + low - m.given.guide_clearance - width, foot)
     right = complex(m.offset + high + m.given.guide_clearance, foot)
     return Rails(width, m.given.guide_length, (left, right))
+
+
+def follower_foot(m: Mechanism) -> float:
+    """Height of the underside of bar, lever and rails, mm."""
+    return 0.0 if m.flat else m.given.thickness + m.given.axial_gap
+
+
+def follower_depth(m: Mechanism) -> float:
+    """Thickness of bar, lever and rails, mm."""
+    return m.given.thickness if m.flat else m.given.follower_thickness

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from mechwright import Array, material
+from mechwright.contracts.design_table import by_row
 from mechwright.contracts.figure import PartMass
 from mechwright.contracts.mass import KILOGRAMS
 from mechwright.mechanics.laws import Rates
@@ -38,13 +39,15 @@ from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.kinematics.motion import ROLLERS
 from mechwright_cam_follower.parts.follower_dimensions import (
     CORNER,
-    bar_width,
-    shaft_room,
+    follower_depth,
     slide_height,
     slide_sides,
 )
-from mechwright_cam_follower.parts.parts import BOSSES, follower_depth
+from mechwright_cam_follower.parts.parts import BOSSES, carriage_holes
 from mechwright_cam_follower.parts.shaft_opening import opening_area
+from mechwright_cam_follower.parts.slide_dimensions import bar_width, shaft_room
+from mechwright_cam_follower.parts.spring_parts import SPRING_MASSES, spring_hole_area
+from mechwright_cam_follower.spring.choice import spring_tail
 
 NODES = 24
 """Of a smooth piece of the turn: those of the laws, up to a whole turn wide, are met to 1e-9."""
@@ -63,8 +66,10 @@ def masses_of(m: Mechanism) -> dict[str, PartMass]:
     found["slide" if m.slides else "lever"] = part(_follower, follower_depth(m))
     if not m.flat:
         found |= {name: PartMass(partial(_roller, m)) for _, name in zip(m.cams, ROLLERS, strict=False)}
-    if m.slides:
+    if m.railed:
         found["rail"] = part(_rail, follower_depth(m), 2)
+    if m.given.spring is not None:
+        found |= {name: PartMass(partial(by_row(mass), m)) for name, mass in SPRING_MASSES.items()}
     return found
 
 
@@ -116,6 +121,9 @@ def _follower(m: Mechanism) -> Any:
     area = _slide(m) if m.slides else _lever(m) - circle_area(m.given.pivot_bore)
     if not m.flat:
         area = area - len(m.cams) * circle_area(m.given.pin_diameter)
+    if m.given.spring is not None:
+        area = area - by_row(spring_hole_area)(m)
+    area = area - sum(circle_area(size) for _, size in carriage_holes(m).values())
     if m.given.conjugate:
         area = area - strip_area(m.stroke * (1.0 if m.slides else m.axis), shaft_room(m))
     return area
@@ -133,15 +141,16 @@ def _slide(m: Mechanism) -> Any:
 
 def _lever(m: Mechanism) -> Any:
     half = m.given.follower_width / 2
+    tail = 0.0 if m.given.spring is None else by_row(spring_tail)(m)
     if m.flat:
         (low, high), margin = face_ends(m), m.value("face_margin")
         corner = np.minimum(CORNER, margin)
         ends = [low - margin + corner, high + margin - corner]
         sides = [m.face - corner, m.face - m.given.follower_width + corner]
         corners = [end + 1j * side for side in sides for end in ends]
-        return _hull(m, [0j, *corners], [half, *[corner] * 4])
+        return _hull(m, [-tail + 0j, 0j, *corners], [half, half, *[corner] * 4])
     if not m.given.conjugate:
-        return two_discs_area(m.arm, half, half)
+        return two_discs_area(m.arm + tail, half, half)
     turns = np.linspace(0.0, m.stroke, BOSSES)
     places = [m.axis * np.exp(1j * (m.start + turn)) for turn in turns]
     studs = [0j, m.arm, m.arm * np.exp(1j * m.apart)]

@@ -8,6 +8,7 @@ of its cam, and so do its rails.
 import cmath
 import math
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +34,7 @@ from mechwright import (
 from mechwright.geometry.strip import strip
 from mechwright.mechanics.linkage.outlines import Boss, hull_link, rectangle
 from mechwright.mechanics.openings import opening_of
+from mechwright.standards.screws import screw_size
 from mechwright_cam_follower.kinematics.extremes import face_ends
 from mechwright_cam_follower.kinematics.mechanism import Mechanism, mechanism_of
 from mechwright_cam_follower.kinematics.motion import CAM, FOLLOWER, RAILS, ROLLERS
@@ -40,14 +42,17 @@ from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.parts.cam_outline import outline_of
 from mechwright_cam_follower.parts.follower_dimensions import (
     CORNER,
-    bar_width,
+    follower_depth,
+    follower_foot,
     rails_of,
-    shaft_room,
     slide_height,
     slide_sides,
     studs_of,
 )
 from mechwright_cam_follower.parts.gauging import edge_measures
+from mechwright_cam_follower.parts.slide_dimensions import bar_width, carriage_place, shaft_room
+from mechwright_cam_follower.parts.spring_parts import spring_parts, spring_pin
+from mechwright_cam_follower.spring.choice import spring_tail
 
 STEEL, BRONZE, BLUE, GREY = (0.68, 0.70, 0.74), (0.80, 0.62, 0.35), (0.42, 0.55, 0.72), (0.55, 0.56, 0.58)
 
@@ -62,19 +67,9 @@ def parts_of(params: CamParams) -> tuple[Part, ...]:
     found = [*(_cam(m, cam) for cam in m.cams), _follower(m)]
     if not m.flat:
         found += _rollers(m)
-    if m.slides:
+    if m.railed:
         found.append(_rail(m))
-    return tuple(found)
-
-
-def follower_foot(m: Mechanism) -> float:
-    """Height of the underside of bar, lever and rails, mm."""
-    return 0.0 if m.flat else m.given.thickness + m.given.axial_gap
-
-
-def follower_depth(m: Mechanism) -> float:
-    """Thickness of bar, lever and rails, mm."""
-    return m.given.thickness if m.flat else m.given.follower_thickness
+    return (*found, *spring_parts(m))
 
 
 def second_foot(m: Mechanism) -> float:
@@ -138,6 +133,7 @@ def _follower(m: Mechanism) -> Part:
     if not m.flat:
         for number, stud in enumerate(studs_of(m), start=1):
             holes[f"stud-{number}"] = ((stud.real, stud.imag), m.given.pin_diameter)
+    holes |= {**spring_pin(m), **carriage_holes(m)}
     features: list[Feature] = [Bore(name, place, size, 0, depth) for name, (place, size) in holes.items()]
     inner = [_hole(place, size) for place, size in holes.values()]
     if m.given.conjugate:
@@ -156,6 +152,18 @@ def _follower(m: Mechanism) -> Part:
     )
 
 
+def carriage_holes(m: Mechanism) -> dict[str, tuple[Point, Any]]:
+    """Place and diameter of the holes for the screws of a carriage, by name, mm; empty without one."""
+    guide = m.given.linear_guide
+    if guide is None:
+        return {}
+    middle, size = carriage_place(m), screw_size(guide.thread).clearance()
+    return {
+        f"carriage-{number}": ((-across, middle + along), size)
+        for number, (along, across) in enumerate(guide.carriage_holes, start=1)
+    }
+
+
 def _slide_loop(m: Mechanism) -> Loop:
     low, high = slide_sides(m)
     top = slide_height(m)
@@ -167,9 +175,9 @@ def _slide_loop(m: Mechanism) -> Loop:
 
 
 def _lever_loop(m: Mechanism) -> Loop:
-    half = m.given.follower_width / 2
+    half, tail = m.given.follower_width / 2, complex(-spring_tail(m))
     if not m.flat:
-        bosses = [Boss(0j, half), *(Boss(stud, half) for stud in studs_of(m))]
+        bosses = [Boss(tail, half), Boss(0j, half), *(Boss(stud, half) for stud in studs_of(m))]
         if m.given.conjugate:
             room = shaft_room(m) + m.given.least_wall
             turns = np.linspace(m.start, m.start + m.stroke, BOSSES).tolist()
@@ -182,7 +190,7 @@ def _lever_loop(m: Mechanism) -> Loop:
     ends = [complex(low - margin + corner, 0.0), complex(high + margin - corner, 0.0)]
     face = [Boss(end + 1j * (m.face - corner), corner) for end in ends]
     back = [Boss(end + 1j * (m.face - m.given.follower_width + corner), corner) for end in ends]
-    return hull_link([Boss(0j, half), *face, *back]).outer
+    return hull_link([Boss(tail, half), Boss(0j, half), *face, *back]).outer
 
 
 def slot_of(m: Mechanism) -> Loop:

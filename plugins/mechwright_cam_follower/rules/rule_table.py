@@ -31,7 +31,9 @@ from mechwright_cam_follower.parameters import CamParams
 from mechwright_cam_follower.rules.closure import CLOSURE
 from mechwright_cam_follower.rules.gentler_motion import gentler
 from mechwright_cam_follower.rules.remedies import sizes_for
+from mechwright_cam_follower.rules.spring_rules import BOUGHT_SPRING, GUIDE, MOVED, SPRING_NOTES
 from mechwright_cam_follower.rules.walls import WALLS
+from mechwright_cam_follower.spring.choice import RESERVE
 
 Rule = DesignRule[Mechanism]
 Fails = Failure[Mechanism]
@@ -101,6 +103,11 @@ PRESSURE_ANGLE = Rule(
 )
 
 
+def _is_stated(m: Mechanism) -> bool:
+    """Whether a design states preload and rate of a spring of one's own."""
+    return not m.given.conjugate and m.given.spring is None
+
+
 def _springs(m: Mechanism) -> tuple[str, str]:
     return ("spring_preload", "spring_rate") if m.slides else ("spring_torque", "spring_stiffness")
 
@@ -128,8 +135,8 @@ def _rounded_up(value: float) -> float:
     >>> _rounded_up(100.0), _rounded_up(0.0123)
     (111.0, 0.0136)
     """
-    step = 10.0 ** (math.floor(math.log10(1.1 * value)) - 2) if value > 0 else 1.0
-    return float(f"{(math.floor(1.1 * value / step) + 1) * step:.6g}")
+    step = 10.0 ** (math.floor(math.log10(RESERVE * value)) - 2) if value > 0 else 1.0
+    return float(f"{(math.floor(RESERVE * value / step) + 1) * step:.6g}")
 
 
 def _spring_remedy(f: Fails) -> str:
@@ -151,7 +158,7 @@ def _spring_rule(unit: str, *, slides: bool) -> Rule:
         must_be="above",
         severity=Severity.WARNING,
         proposed=lambda f: tuple({f"parameters.{name}": value} for name, value in _stiffer_springs(f)),
-        when=lambda m: not m.given.conjugate and m.slides == slides,
+        when=lambda m: _is_stated(m) and m.slides == slides,
         slow="remedy",
     )
 
@@ -225,7 +232,7 @@ def _face_length(m: Mechanism) -> Any:
 
 
 def _preload(m: Mechanism) -> str:
-    least, (preload, _, _), unit = weakest(m), spring_of(m), "N" if m.slides else "N·m"
+    least, (preload, _), unit = weakest(m), spring_of(m), "N" if m.slides else "N·m"
     need = max(0.0, _preload_peak(m).value)
     return (
         f"the follower is held with at least {least.value:.4g} {unit}, at "
@@ -239,7 +246,7 @@ def _preload_note(unit: str, *, slides: bool) -> Note[Mechanism]:
         _preload,
         lambda m: weakest(m).value,
         unit,
-        when=lambda m: not m.given.conjugate and m.slides == slides,
+        when=lambda m: _is_stated(m) and m.slides == slides,
     )
 
 
@@ -256,6 +263,9 @@ LOADS = all_of(
     PRESSURE_ANGLE,
     _spring_rule("N", slides=True),
     _spring_rule("N*m", slides=False),
+    BOUGHT_SPRING,
+    MOVED,
+    GUIDE,
     CONTACT_PRESSURE,
 )
 
@@ -269,6 +279,7 @@ NOTES = all_of(
     Note("follower.face", _face, _face_length, "mm", when=lambda m: m.flat),
     _preload_note("N", slides=True),
     _preload_note("N*m", slides=False),
+    *SPRING_NOTES,
     Note("follower.loads", _load_words, lambda m: load_peak(m, "torque_max").value, "N*m"),
 )
 

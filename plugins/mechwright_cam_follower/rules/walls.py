@@ -18,8 +18,8 @@ from mechwright_cam_follower.kinematics.extremes import innermost, outermost
 from mechwright_cam_follower.kinematics.mechanism import Mechanism
 from mechwright_cam_follower.kinematics.turn import Samples, least
 from mechwright_cam_follower.parts.cam_outline import outline_of
-from mechwright_cam_follower.parts.follower_dimensions import FREE, shaft_room
 from mechwright_cam_follower.parts.shaft_opening import opening_reach
+from mechwright_cam_follower.parts.slide_dimensions import FREE, shaft_room
 
 Rule = DesignRule[Mechanism]
 Fails = Failure[Mechanism]

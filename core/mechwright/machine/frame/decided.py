@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mechwright.contracts.on_plates import Post, Slideway
 from mechwright.machine.frame.bracket import Bracket
 from mechwright.machine.frame.coupled import Motor
 from mechwright.machine.frame.seats import Seat
@@ -35,6 +36,8 @@ class Frame:
         The rectangle of the columns.
     bracket
         Of the motor; None without one.
+    posts, slideways
+        Pins of the mechanism in the bearing plates, and linear guides on the lower one.
     """
 
     seats: tuple[Seat, ...]
@@ -42,6 +45,8 @@ class Frame:
     thickness: float
     standing: Standing
     bracket: Bracket | None
+    posts: tuple[Post, ...] = ()
+    slideways: tuple[Slideway, ...] = ()
 
     @property
     def under(self) -> float:

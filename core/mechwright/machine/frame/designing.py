@@ -3,6 +3,8 @@
 import math
 from collections.abc import Sequence
 
+import shapely
+
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Mounting
@@ -40,8 +42,10 @@ from mechwright.machine.frame.plates import (
     thickness_for,
 )
 from mechwright.machine.frame.play import coupling_stack, shaft_stacks
+from mechwright.machine.frame.posts import add_post, post_disc, post_faults, post_hole
 from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
 from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
+from mechwright.machine.frame.slideways import add_slideway, floor_of, rail_discs, rail_holes, region_of
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
 from mechwright.standards.couplings import BORES, OverloadError
@@ -89,18 +93,23 @@ def decided(
         least = plate_for(least_thickness(bearings), keys.plate_material, keys.plates)
         return [_too_thin(thickness, least)]
     space = space_of(parts, motion)
-    levels = levels_of(space, chosen, keys, thickness)
+    levels = levels_of(space, chosen, keys, thickness, mounting)
     faults = [fault for seat in chosen for fault in in_the_way(seat, levels, space, mounting)]
+    faults += [fault for post in mounting.posts for fault in post_faults(post, levels, space)]
     if faults:
         return faults
     held = [
         Disc(seat.spindle.point, seat.bearing.outside / 2 + wall(seat.bearing.outside, keys.plate_material))
         for seat in chosen
     ]
+    held += [
+        *map(post_disc, mounting.posts),
+        *(disc for way in mounting.slideways for disc in rail_discs(way)),
+    ]
     if keys.cover:
         x0, y0, x1, y1 = space.region.bounds
         held += [Disc(corner, CLEARANCE) for corner in ((x0, y0), (x1, y1))]
-    bracket, region = None, space.region
+    bracket, region = None, shapely.union_all([space.region, *map(region_of, mounting.slideways)])
     if keys.frame == "base" and wanted.motor is not None:
         driver = next(seat for seat in chosen if seat.spindle.drives)
         try:
@@ -120,7 +129,7 @@ def decided(
     standing = stand(region, held, PILLAR / 2, EDGE)
     if keys.guard:
         standing = widened(standing, space.region.bounds)
-    return Frame(tuple(chosen), levels, thickness, standing, bracket)
+    return Frame(tuple(chosen), levels, thickness, standing, bracket, mounting.posts, mounting.slideways)
 
 
 def _one_plate() -> Finding:
@@ -136,10 +145,18 @@ def _one_plate() -> Finding:
     )
 
 
-def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float) -> Levels:
-    """The inner faces: clear of the mechanism, with room for shoulders and for the pillars' threads."""
+def levels_of(
+    space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float, mounting: Mounting
+) -> Levels:
+    """The inner faces: clear of the mechanism, with room for shoulders and for the pillars' threads.
+
+    The lower one is that on which linear guides lie. Raises DesignError where these are too low for the rest.
+    """
     lower = min(space.low - keys.axial_gap, *(lowest(seat) for seat in chosen))
     upper = max(space.high + keys.axial_gap, *(highest(seat) for seat in chosen))
+    if mounting.slideways:
+        lower = floor_of(mounting.slideways, lower)
+        return Levels(lower, lower + math.ceil(round(max(upper - lower, least_height(thickness)), 6)))
     short = max(least_height(thickness) - (upper - lower), 0.0)
     # Whole millimetres between the plates, half of what is missing on either side.
     height = math.ceil(round(upper - lower + short, 6))
@@ -187,14 +204,19 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     """All parts where they stand."""
     kit = Kit()
     levels, thickness, standing, bracket = frame.levels, frame.thickness, frame.standing, frame.bracket
-    posts = columns(standing.corners)
+    corners = columns(standing.corners)
     lower = [bearing_hole(seat, thickness) for seat in frame.seats]
     upper = list(lower)
-    for post in posts:
-        post.place(kit)
-        hole = register(post.name, post.point, thickness, spigot=post.spigot)
+    for column in corners:
+        column.place(kit)
+        hole = register(column.name, column.point, thickness, spigot=column.spigot)
         lower.append(hole)
         upper.append(hole)
+    for post in frame.posts:
+        (upper if post.hangs else lower).append(post_hole(post, thickness))
+        add_post(kit, post, levels.upper + thickness if post.hangs else frame.under)
+    for way in frame.slideways:
+        lower += rail_holes(way)
     if bracket is not None:
         lower += pillar_holes(bracket, thickness)
     kit.places["lower-carrier"] = Place()
@@ -203,12 +225,14 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     add_plate(kit, "lower-plate", standing, EDGE, thickness, material, lower, "lower-carrier", frame.under)
     top = -levels.upper - thickness
     add_plate(kit, "upper-plate", standing, EDGE, thickness, material, upper, "upper-carrier", top, over=True)
+    for way in frame.slideways:
+        add_slideway(kit, way, material)
     if keys.guard:
         add_guard(kit, standing, levels)
     for seat in frame.seats:
         shaft = add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
         kit.stacks += shaft_stacks(seat, shaft, levels)
-    _add_columns(kit, frame, keys, posts)
+    _add_columns(kit, frame, keys, corners)
     if bracket is not None:
         body = frame.driver.spindle.body
         add_bracket(kit, bracket, body, (levels.lower, frame.under), material)

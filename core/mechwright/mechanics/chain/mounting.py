@@ -53,6 +53,11 @@ def _spindles(whole: Assembly) -> Iterator[Spindle]:
 def _of_stage(link: Link) -> Mounting:
     found = stage_mounting(link)
     if isinstance(found, Mounting):
+        if found.posts or found.slideways:
+            raise MountingError(
+                f"stage.{link.number}.family: stage {link.number}, {link.family.name}, has a guide or the "
+                "pin of a spring on the bearing plates, and no frame of a chain has them; leave [machine] out"
+            )
         return found
     raise MountingError(
         f"stage.{link.number}.family: stage {link.number}, {link.family.name}, has a ground plate of its "
