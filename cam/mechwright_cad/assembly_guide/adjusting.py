@@ -1,9 +1,9 @@
 """What is set, measured and tried while a machine is put together: motor, float, shafts, backlash, run-in."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 
-from mechwright.contracts.axial_stack import AxialStack
+from mechwright.contracts.axial_stack import AxialStack, StackLength
 from mechwright.mechanics.mating.rounds import Match
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_order.groups import is_bearing
@@ -80,14 +80,27 @@ class Adjusting:
 
     def measured(self, step: Step) -> Iterator[str]:
         """Axial stacks whose parts are all there since this step, with the rings that each takes."""
-        now = {self.plan.bodies[k].part.name for k in (*step.onto, *step.moved)}
-        before = {self.plan.bodies[k].part.name for k in step.onto}
+        now, before = self._there((*step.onto, *step.moved)), self._there(step.onto)
         for one in self.stacks:
             rings = "" if one.shimming is None else one.shimming.part
-            parts = {each.part for each in one.lengths} - {"", rings}
-            if parts and parts <= now and not parts <= before and one.name not in self._measured:
+            parts = [each for each in one.lengths if each.part not in {"", rings}]
+            done = parts and all(map(now, parts)) and not all(map(before, parts))
+            if done and one.measurable and one.name not in self._measured:
                 self._measured.add(one.name)
                 yield _measured(one)
+
+    def _there(self, numbers: Iterable[int]) -> Callable[[StackLength], bool]:
+        """Whether some bodies have the part of a length: that copy of it where one of several is meant."""
+        bodies = [self.plan.bodies[k] for k in numbers]
+        names = {body.part.name for body in bodies}
+        copies = {(body.part.name, body.instance.body, round(body.instance.z, 6)) for body in bodies}
+
+        def there(length: StackLength) -> bool:
+            if length.copy is None:
+                return length.part in names
+            return (length.part, length.copy[0], round(length.copy[1], 6)) in copies
+
+        return there
 
     def run_in(self, step: Step) -> Iterator[str]:
         """What is done when all is together."""

@@ -60,6 +60,8 @@ class Material:
         Specific cutting force of a chip 1 mm thick, N/mm² (k_c1.1).
     force_exponent
         By which the specific force grows as the chip gets thinner (m).
+    expansion
+        By how much a length grows by one kelvin, millionths of it.
     long_chips
         Whether chips of a drill do not break by themselves.
     grades
@@ -75,6 +77,7 @@ class Material:
     chip_share: tuple[float, float]
     force: float
     force_exponent: float
+    expansion: float
     long_chips: bool
     grades: Grades
 
@@ -103,11 +106,11 @@ _GRADES = {
 MATERIALS = {
     name: Material(name, *figures, long_chips=long_chips, grades=_GRADES[name])
     for name, figures, long_chips in (
-        ("aluminium", (2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25), True),
-        ("brass", (8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18), False),
-        ("steel", (7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17), True),
-        ("pom", (1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20), True),
-        ("polycarbonate", (1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20), True),
+        ("aluminium", (2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25, 23.4), True),
+        ("brass", (8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, 21.0), False),
+        ("steel", (7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17, 11.5), True),
+        ("pom", (1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20, 110.0), True),
+        ("polycarbonate", (1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20, 65.0), True),
     )
 }
 

@@ -17,6 +17,7 @@ from mechwright.machine.frame.free import in_the_way
 from mechwright.machine.frame.guard import add_guard, widened
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.located import add_retainer, height_over
 from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import (
     EDGE,
@@ -37,11 +38,12 @@ from mechwright.machine.frame.plates import (
     add_plate,
     bearing_hole,
     least_thickness,
+    retainer_holes,
     thickness_for,
 )
 from mechwright.machine.frame.play import coupling_stack, shaft_stacks
-from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
-from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
+from mechwright.machine.frame.seats import Seat, bores, candidates, plate_radius, seats
+from mechwright.machine.frame.shafts import Held, Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
 from mechwright.standards.couplings import BORES, OverloadError
@@ -83,20 +85,16 @@ def decided(
     chosen, faults = seats(mounting, keys)
     if faults:
         return faults
-    bearings = [seat.bearing for seat in chosen]
-    thickness = keys.plate_thickness or thickness_for(bearings, keys.plate_material, keys.plates)
-    if thickness < least_thickness(bearings):
-        least = plate_for(least_thickness(bearings), keys.plate_material, keys.plates)
+    thickness = keys.plate_thickness or thickness_for(chosen, keys.plate_material, keys.plates)
+    if thickness < least_thickness(chosen):
+        least = plate_for(least_thickness(chosen), keys.plate_material, keys.plates)
         return [_too_thin(thickness, least)]
     space = space_of(parts, motion)
     levels = levels_of(space, chosen, keys, thickness)
     faults = [fault for seat in chosen for fault in in_the_way(seat, levels, space, mounting)]
     if faults:
         return faults
-    held = [
-        Disc(seat.spindle.point, seat.bearing.outside / 2 + wall(seat.bearing.outside, keys.plate_material))
-        for seat in chosen
-    ]
+    held = [Disc(seat.spindle.point, plate_radius(seat, keys.plate_material)) for seat in chosen]
     if keys.cover:
         x0, y0, x1, y1 = space.region.bounds
         held += [Disc(corner, CLEARANCE) for corner in ((x0, y0), (x1, y1))]
@@ -106,7 +104,7 @@ def decided(
         try:
             bracket = bracket_for(
                 wanted.motor,
-                (driver.spindle.point, driver.bearing.bore, driver.bearing.width),
+                (driver.spindle.point, driver.bearing.bore, levels.lower - Held.of(driver, levels).lower),
                 (levels.lower, levels.lower - thickness),
                 wanted.torque,
                 held,
@@ -138,7 +136,9 @@ def _one_plate() -> Finding:
 
 def levels_of(space: Space, chosen: Sequence[Seat], keys: FrameKeys, thickness: float) -> Levels:
     """The inner faces: clear of the mechanism, with room for shoulders and for the pillars' threads."""
-    lower = min(space.low - keys.axial_gap, *(lowest(seat) for seat in chosen))
+    located = [seat.bearing for seat in chosen if seat.located]
+    over = height_over(located) if located else 0.0
+    lower = min(space.low - keys.axial_gap - over, *(lowest(seat) for seat in chosen))
     upper = max(space.high + keys.axial_gap, *(highest(seat) for seat in chosen))
     short = max(least_height(thickness) - (upper - lower), 0.0)
     # Whole millimetres between the plates, half of what is missing on either side.
@@ -165,7 +165,7 @@ def _no_coupling(driver: Seat, keys: FrameKeys, said: str) -> Finding:
 
 
 def _bearing_bore(bore: float, keys: FrameKeys) -> float:
-    found = candidates(bore, keys.bearing)
+    found = candidates(bore, keys.bearing, keys.bearing_arrangement)
     return found[0].bore if found else 0.0
 
 
@@ -188,8 +188,9 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     kit = Kit()
     levels, thickness, standing, bracket = frame.levels, frame.thickness, frame.standing, frame.bracket
     posts = columns(standing.corners)
-    lower = [bearing_hole(seat, thickness) for seat in frame.seats]
-    upper = list(lower)
+    lower = [bearing_hole(seat, thickness, upper=False) for seat in frame.seats]
+    lower += [hole for seat in frame.seats for hole in retainer_holes(seat, thickness)]
+    upper = [bearing_hole(seat, thickness, upper=True) for seat in frame.seats]
     for post in posts:
         post.place(kit)
         hole = register(post.name, post.point, thickness, spigot=post.spigot)
@@ -206,6 +207,9 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     if keys.guard:
         add_guard(kit, standing, levels)
     for seat in frame.seats:
+        if seat.located:
+            point, name = seat.spindle.point, seat.spindle.name
+            add_retainer(kit, seat.bearing, name, point, levels.lower, "lower-plate")
         shaft = add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
         kit.stacks += shaft_stacks(seat, shaft, levels)
     _add_columns(kit, frame, keys, posts)
@@ -220,9 +224,10 @@ def _stub(frame: Frame) -> tuple[float, float]:
     """Diameter and length of the input's shaft below its bearing, mm."""
     if frame.bracket is not None:
         return frame.bracket.stub
-    bearing = frame.driver.bearing
+    bearing, levels = frame.driver.bearing, frame.levels
+    depth = levels.lower - Held.of(frame.driver, levels).lower
     diameter = bearing.bore - 1.0 if bearing.bore > 4 else bearing.bore
-    return diameter, frame.thickness - bearing.width + STUB * bearing.bore
+    return diameter, frame.thickness - depth + STUB * bearing.bore
 
 
 def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column]) -> None:
@@ -246,6 +251,6 @@ def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column
     if based:
         bracket = frame.bracket
         stub = _stub(frame)
-        lowest_point = bracket.low if bracket else levels.lower - frame.driver.bearing.width - stub[1]
+        lowest_point = bracket.low if bracket else Held.of(frame.driver, levels).foot(stub)
         top, material = lowest_point - UNDER, keys.plate_material
         add_base(kit, frame.standing, list(posts), frame.under, top, below, material, keys.plates)
