@@ -13,7 +13,7 @@ from mechwright_cad.assembly_guide.adjusting import Adjusting
 from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.handling import Handling, whence
 from mechwright_cad.assembly_guide.pressing import BENCH, pressed
-from mechwright_cad.assembly_guide.tools import fitted, screwed
+from mechwright_cad.assembly_guide.tools import fitted, keyed, screwed
 from mechwright_cad.assembly_order.groups import is_bearing
 from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
@@ -93,6 +93,8 @@ class Words:
         if self._tight_in(step) and plan.order.seats.is_bush(step.moved[0]):
             said.append(f"{BENCH} Use a mandrel as thick as the shaft, with a shoulder.")
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
+        there = [(k, plan.bodies[k].part) for k in (*step.onto, *step.moved)]
+        said += dict.fromkeys(filter(None, (keyed(plan.bodies[k].part, there, self.name) for k in new)))
         said += dict.fromkeys(
             sentence
             for k in (*step.onto, *step.moved)
