@@ -116,7 +116,9 @@ def test_washers_lie_on_plastics_and_over_coarse_holes():
 
 
 def test_threads_engage_as_long_as_their_material_asks():
-    assert ENGAGEMENT == {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+    grades = {"5754": 2.0, "5083": 2.0}
+    groups = {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+    assert groups | grades == ENGAGEMENT
 
 
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ from mechwright.machine.frame.kit import PLATE, Kit
 from mechwright.machine.frame.shim_rings import add_shim
 from mechwright.standards.bearings import Bearing
 from mechwright.standards.circlips import Circlip, shaft_circlip
-from mechwright.standards.screws import ENGAGEMENT, screw, screw_size
+from mechwright.standards.screws import least_engaged, screw, screw_size
 from mechwright.standards.shims import Shim, shim_on
 
 RETAINER = 3.0
@@ -199,7 +199,7 @@ def add_retainer(kit: Kit, bearing: Bearing, spindle: str, centre: Point, level:
     of = kit.parts[plate].material
     gap = proud(bearing)
     kit.put(Part(name, outline, RETAINER, of, colour=PLATE, machined=cut, play=gap), body, low)
-    found = screw(SCREW, RETAINER + proud(bearing) + ENGAGEMENT[of] * SCREW)
+    found = screw(SCREW, RETAINER + proud(bearing) + least_engaged(of) * SCREW)
     for k, hole in enumerate(holes, start=1):
         kit.parts[plate] = threaded(kit.parts[plate], f"retainer-{spindle}-{k}", f"M{SCREW:g}")
         at = f"{body}-screw-{k}"

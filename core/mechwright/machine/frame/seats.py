@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from mechwright.contracts.finding import Change, Finding
+from mechwright.contracts.materials import entry
 from mechwright.contracts.mounting import Mounting, Spindle
 from mechwright.machine.frame.fault import fault
 from mechwright.machine.frame.keys import Arrangement, FrameKeys
@@ -43,7 +44,7 @@ class Seat:
 
 def wall(outside: float, material: str) -> float:
     """Around a bearing's outside, mm."""
-    return max(LEAST_WALL, WALL.get(material, 0.2) * outside)
+    return max(LEAST_WALL, (entry(WALL, material) or 0.2) * outside)
 
 
 def circlip_over(bore: float) -> Circlip | None:
