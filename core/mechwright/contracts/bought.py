@@ -57,6 +57,8 @@ class Bought:
         Its threaded holes, into which screws of the machine go.
     fits
         Limits of its round faces, each by the diameter at which it is drawn.
+    inch
+        What is sold in its place where sizes are in inches, if no standard says it; empty for nothing.
     """
 
     designation: str
@@ -66,6 +68,7 @@ class Bought:
     note: str = ""
     threads: tuple[BlindThread, ...] = ()
     fits: tuple[Fit, ...] = ()
+    inch: str = ""
 
     def __post_init__(self) -> None:
         if not self.designation.strip():
