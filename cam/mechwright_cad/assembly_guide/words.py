@@ -12,6 +12,7 @@ from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
 from mechwright_cad.assembly_guide.adjusting import Adjusting
 from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.handling import Handling, whence
+from mechwright_cad.assembly_guide.pin_places import chosen_hole, depths
 from mechwright_cad.assembly_guide.pressing import BENCH, pressed
 from mechwright_cad.assembly_guide.tools import fitted, keyed, screwed
 from mechwright_cad.assembly_order.groups import is_bearing
@@ -83,6 +84,8 @@ class Words:
         turn = self._handling.turn(step)
         said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
         said += dict.fromkeys(self._fits(match, step) for match in found if self._fast(match))
+        said += dict.fromkeys(depths(plan.order, step, found, self.name))
+        said += dict.fromkeys(filter(None, (chosen_hole(plan.order, match, self.name) for match in found)))
         new = [k for k in step.moved if self._first[k] is step]
         said += dict.fromkeys(sentence for k in new for sentence in self._ends(k))
         said += dict.fromkeys(filter(None, (self._screwed(k, self._columns.later(k), step) for k in new)))
