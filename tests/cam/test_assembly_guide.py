@@ -261,8 +261,10 @@ def test_a_shaft_is_fast_in_its_bearing_and_in_its_coupling():
     )
     motor = turned("motor", Turned((Length(37.0, 50.0), Length(6.0, 13.0))), -65.0, "still")
     found = [words for words, _ in told((shaft, clamped, motor), still=("still",))]
-    assert any("motor (3) goes into coupling (2): tighten its screw there." in words for words in found)
-    assert any("Tighten its screw on this shaft" in words for words in found)
+    assert any(
+        "motor (3) goes 13.0 mm into coupling (2): tighten its screw there." in words for words in found
+    )
+    assert any("Its other screw stays loose until both shafts stand." in words for words in found)
     assert not any("turn freely" in words for words in found)
 
 
@@ -420,3 +422,31 @@ def test_an_adjustable_five_bar_says_holes_and_heads_that_leave_play():
     assert "bore-3, bore-4, bore-6 and bore-7 stay empty in this setting" in page
     assert "a feeler gauge of 0.1 mm just passes between its shoulder and bushing" in page
     assert "until the end of shaft-a0 (8) is flush with crank" in page
+
+
+def test_rings_are_left_out_until_their_play_is_measured_and_hubs_are_bonded_after():
+    """The order of a fitter: hub dry, no ring, circlip, measure; and a float with the plate's screws in."""
+    with Build(EXAMPLES / "geneva-machine.toml", host(), Wanted("model")) as build:
+        page = AssemblyGuide().files(build)["assembly.html"]
+    text = re.sub(r"<svg.*?</svg>", "", page, flags=re.DOTALL)
+    steps = [re.sub(r"<[^>]+>|\\s+", " ", one) for one in re.split(r"<h3", text)[1:]]
+    said = dict(enumerate(steps, start=1))
+    hub = next(n for n, one in said.items() if "play of the hub on shaft-wheel with a dial gauge" in one)
+    bonded = next(
+        n
+        for n, one in said.items()
+        if f"bond it with retaining compound, once step {hub} has chosen the rings" in one
+    )
+    left = [n for n, one in said.items() if f"Leave it out at first: step {hub} measures" in one]
+    assert bonded < left[0] < hub
+    assert "circlip-10" in said[hub]
+    floats = next(n for n, one in said.items() if "measure the float of shaft-driver" in one)
+    assert "only until its head rests" in said[floats], "the plate is held while its shafts are pushed"
+    assert sum(f"Leave it out at first: step {floats} measures" in one for one in steps) == 2
+    crank = next(one for one in steps if "Turn the crank on the locking disc" in one)
+    assert "retaining compound" in crank
+    fastens = next(one for one in steps if "shift the motor" in one)
+    assert fastens.index("shift the motor") < fastens.index("tighten to 5.4")
+    assert "Check the gap of the shafts" not in page
+    assert "goes 13.5 mm into coupling" in " ".join(steps)
+    assert "Lay the whole on its side for it" in steps[-1]

@@ -98,7 +98,7 @@ def keyed(key: Part, shafts: Iterable[tuple[int, Part]], name: Callable[[int], s
 def fitted(part: Part) -> str:
     """What to mind with a circlip, a bearing, a dowel or a coupling; empty for the rest."""
     if is_coupling(part):
-        return "Tighten its screw on this shaft; that on the other shaft comes once both stand."
+        return "Its other screw stays loose until both shafts stand."
     standard = part.bought.standard if part.bought is not None else ""
     if standard in circlips.STANDARDS:
         kind = "outer" if standard == circlips.ON_SHAFTS else "inner"

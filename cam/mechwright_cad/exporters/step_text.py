@@ -16,7 +16,7 @@ _MEASURE = re.compile(rb"^(#\d+ = )MEASURE_WITH_UNIT\(([-+.\dE]+),", re.MULTILIN
 
 
 def typed_measures(text: bytes) -> bytes:
-    """Say that limit deviations are lengths, which the kernel leaves out and ISO 10303-41 asks for.
+    r"""Say that limit deviations are lengths, which the kernel leaves out and ISO 10303-41 asks for.
 
     >>> typed_measures(b"#7 = MEASURE_WITH_UNIT(-0.009,#5);\n")
     b'#7 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(-0.009),#5);\n'

@@ -166,6 +166,9 @@ class AxialStack:
         The length that a remedy changes; empty for the first.
     key
         The design-file key that changes it; empty where none does.
+    hub_on
+        The shaft on which a hub has this play; empty for other stacks. A hub without a key is bonded once the
+        rings are chosen.
     measurable
         Whether it can be measured while the machine is put together.
 
@@ -182,6 +185,7 @@ class AxialStack:
     shimming: Shimming | None = None
     adjustable: str = ""
     key: str = ""
+    hub_on: str = ""
     measurable: bool = True
 
     def __post_init__(self) -> None:

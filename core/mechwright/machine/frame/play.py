@@ -100,6 +100,7 @@ def _hub(seat: Seat, shaft: Turned) -> AxialStack:
         HUB_RATTLE if ring is None else HUB_PLAY,
         None if ring is None else shimming(ring, hub_room(seat), where, HUB_LEFT),
         LOADED_WALL,
+        hub_on=name,
     )
 
 
@@ -137,4 +138,5 @@ def coupling_stack(bracket: Bracket, seat: Seat, inner: float, thickness: float)
         ),
         APART,
         adjustable=STUB,
+        measurable=False,
     )
