@@ -31,7 +31,15 @@ from mechwright.machine.frame.located import (
 from mechwright.machine.frame.plates import bearing_hole, least_thickness, retainer_holes, seat_depth
 from mechwright.machine.frame.play import shaft_stacks
 from mechwright.machine.frame.seats import bores, candidates, plate_radius, seats, wall
-from mechwright.machine.frame.shafts import Held, Levels, add_shaft, collar, highest, lowest, sections
+from mechwright.machine.frame.shafts import (
+    AxialLocation,
+    Levels,
+    add_shaft,
+    collar,
+    highest,
+    lowest,
+    sections,
+)
 from mechwright.machine.settings import MachineSettings
 from mechwright.machine.stack_inspection import stack_findings
 from mechwright.standards.bearings import bearings
@@ -81,8 +89,8 @@ def test_shafts_of_all_sizes_are_held_at_one_end_and_free_at_the_other(bore, len
         assert way.worst[0] >= LEAST_WAY + thermal_way(levels.height) - 1e-3
     # All grooves lie on the journals, and the land behind each outlives the chamfer.
     lengths = {one.name: one for one in shaft.lengths}
-    foot = Held.of(seat, levels).foot(ends)
-    assert lengths[BELOW].high + foot == pytest.approx(Held.of(seat, levels).shoulders[0])
+    foot = AxialLocation.of(seat, levels).foot(ends)
+    assert lengths[BELOW].high + foot == pytest.approx(AxialLocation.of(seat, levels).shoulders[0])
     assert shaft.length - lengths[ABOVE].high >= 1.5
     assert sum(
         one.bought is not None and one.name == circlip_of(seat.bearing).part_name
@@ -156,7 +164,7 @@ def test_collar_and_hub_keep_clear_of_the_retainer_and_its_heads():
     seat, levels, _, _ = shaft_on(12.0, below=0.0)
     steps = sections(seat, levels)
     top = levels.lower + proud(seat.bearing) + 3.0
-    held = Held.of(seat, levels)
+    held = AxialLocation.of(seat, levels)
     # The shoulder, thinner than the retainer's opening, reaches beyond it; the collar begins above.
     assert steps[1].diameter < seat.bearing.abutment
     assert held.shoulders[0] + steps[1].length >= top
@@ -165,7 +173,7 @@ def test_collar_and_hub_keep_clear_of_the_retainer_and_its_heads():
 
 def test_the_force_on_a_hub_is_shared_by_the_distances_of_both_bearings():
     seat, levels, _, _ = shaft_on(12.0, below=10.0, above=0.0)
-    held, half = Held.of(seat, levels), seat.bearing.width / 2
+    held, half = AxialLocation.of(seat, levels), seat.bearing.width / 2
     low, high = held.lower + half, held.upper + half
     near, far, moment, _ = bent(seat, levels, 100.0)
     assert far == pytest.approx(100 * (5.0 - low) / (high - low))

@@ -84,7 +84,7 @@ class Adjusting:
             if self._measuring.get(one.name) == number:
                 yield _measured(one)
 
-    def left_out(self, step: Step) -> Iterator[str]:
+    def omitted_rings(self, step: Step) -> Iterator[str]:
         """Shim rings that a later step chooses."""
         number = self.plan.steps.index(step) + 1
         names = {self.plan.bodies[k].part.name for k in step.moved}

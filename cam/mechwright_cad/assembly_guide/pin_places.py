@@ -33,7 +33,7 @@ def depths(order: Order, step: Step, found: Sequence[Match], name: Callable[[int
         return
     for match in found:
         moved = match.pin in step.moved
-        if moved == (match.hole in step.moved) or not _held(order, match):
+        if moved == (match.hole in step.moved) or not _fixed(order, match):
             continue
         way = np.array(step.way) * (1.0 if moved else -1.0)
         if abs(way @ match.outside.axis) < 1 - FLUSH:
@@ -49,7 +49,7 @@ def depths(order: Order, step: Step, found: Sequence[Match], name: Callable[[int
             yield said if said.startswith("Its") else f"{verb} {each} until {said}"
 
 
-def _held(order: Order, match: Match) -> bool:
+def _fixed(order: Order, match: Match) -> bool:
     """Whether only its fit, or a bond, says how deep a pin is."""
     both = (order.bodies[match.pin], order.bodies[match.hole])
     fixed = order.seats.kind(match) in {"pressed", "bonded"}

@@ -83,7 +83,7 @@ class Words:
         found = matches(plan.bodies, plan.sample, step.moved, step.onto)
         turn = self._handling.turn(step)
         said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
-        said += [*self._from_below(step), *self._adjusting.left_out(step)]
+        said += [*self._from_below(step), *self._adjusting.omitted_rings(step)]
         aligned = list(self._adjusting.aligning(step))
         said += aligned[:1]
         said += dict.fromkeys(self._fits(match, step) for match in found if self._fast(match))

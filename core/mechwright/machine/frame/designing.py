@@ -39,11 +39,12 @@ from mechwright.machine.frame.plates import (
     bearing_hole,
     least_thickness,
     retainer_holes,
+    seat_depth,
     thickness_for,
 )
 from mechwright.machine.frame.play import coupling_stack, shaft_stacks
 from mechwright.machine.frame.seats import Seat, bores, candidates, plate_radius, seats
-from mechwright.machine.frame.shafts import Held, Levels, add_shaft, highest, lowest
+from mechwright.machine.frame.shafts import AxialLocation, Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
 from mechwright.standards.couplings import BORES, OverloadError
@@ -104,7 +105,11 @@ def decided(
         try:
             bracket = bracket_for(
                 wanted.motor,
-                (driver.spindle.point, driver.bearing.bore, levels.lower - Held.of(driver, levels).lower),
+                (
+                    driver.spindle.point,
+                    driver.bearing.bore,
+                    seat_depth(driver, upper=False),
+                ),
                 (levels.lower, levels.lower - thickness),
                 wanted.torque,
                 held,
@@ -224,8 +229,7 @@ def _stub(frame: Frame) -> tuple[float, float]:
     """Diameter and length of the input's shaft below its bearing, mm."""
     if frame.bracket is not None:
         return frame.bracket.stub
-    bearing, levels = frame.driver.bearing, frame.levels
-    depth = levels.lower - Held.of(frame.driver, levels).lower
+    bearing, depth = frame.driver.bearing, seat_depth(frame.driver, upper=False)
     diameter = bearing.bore - 1.0 if bearing.bore > 4 else bearing.bore
     return diameter, frame.thickness - depth + STUB * bearing.bore
 
@@ -251,6 +255,6 @@ def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column
     if based:
         bracket = frame.bracket
         stub = _stub(frame)
-        lowest_point = bracket.low if bracket else Held.of(frame.driver, levels).foot(stub)
+        lowest_point = bracket.low if bracket else AxialLocation.of(frame.driver, levels).foot(stub)
         top, material = lowest_point - UNDER, keys.plate_material
         add_base(kit, frame.standing, list(posts), frame.under, top, below, material, keys.plates)

@@ -11,7 +11,7 @@ from mechwright.contracts.finding import Change, Finding, Stage
 from mechwright.contracts.mounting import Spindle
 from mechwright.machine.frame.decided import Frame, Wanted
 from mechwright.machine.frame.seats import Seat
-from mechwright.machine.frame.shafts import Held, Levels, key_of, sections
+from mechwright.machine.frame.shafts import AxialLocation, Levels, key_of, sections
 from mechwright.mechanics.strength.allowed import REVERSING_KEY, allowed
 from mechwright.mechanics.strength.beam import BALL_SLOPE, SteppedShaft
 from mechwright.mechanics.strength.bearings_life import STATIC_SAFETY, life, static_load
@@ -64,7 +64,7 @@ def bent(seat: Seat, levels: Levels, force: float) -> tuple[float, float, float,
 
     The force acts in the middle of the hub.
     """
-    steps, held, hub = sections(seat, levels), Held.of(seat, levels), seat.spindle.hub
+    steps, held, hub = sections(seat, levels), AxialLocation.of(seat, levels), seat.spindle.hub
     foot, half = held.foot(None), seat.bearing.width / 2
     shaft = SteppedShaft(
         tuple((step.diameter, step.length) for step in steps),

@@ -127,7 +127,7 @@ def loaded_wall(bearing: Bearing, ring: float) -> float:
     return bearing.width + ring + circlip_of(bearing).thickness + BACKED
 
 
-def beyond(bearing: Bearing, ring: float) -> float:
+def overhang(bearing: Bearing, ring: float) -> float:
     """By how much a journal goes on beyond its bearing for the circlip and its edge, mm."""
     return loaded_wall(bearing, ring) - bearing.width + max(circlip_of(bearing).edge, LAND)
 

@@ -18,7 +18,7 @@ from mechwright.machine.frame.located import (
 from mechwright.machine.frame.pillars import BETWEEN, HEIGHT
 from mechwright.machine.frame.plates import SEAT_DEPTH, seat_depth
 from mechwright.machine.frame.seats import Seat
-from mechwright.machine.frame.shafts import COLLAR_EDGE, Held, Levels
+from mechwright.machine.frame.shafts import COLLAR_EDGE, AxialLocation, Levels
 from mechwright.machine.frame.shim_rings import shimming
 
 Side = Literal["lower", "upper"]
@@ -70,7 +70,7 @@ class _Lengths:
 
     def __init__(self, seat: Seat, shaft: Turned, levels: Levels) -> None:
         self.seat, self.shaft, self.levels = seat, shaft, levels
-        self.name, self.held = f"shaft-{seat.spindle.name}", Held.of(seat, levels)
+        self.name, self.held = f"shaft-{seat.spindle.name}", AxialLocation.of(seat, levels)
 
     def width(self, side: Side, sign: int) -> StackLength:
         """Of a bearing."""

@@ -20,8 +20,8 @@ from mechwright.machine.frame.located import (
     FREE,
     RETAINER,
     WALL,
-    beyond,
     drawn_ring,
+    overhang,
     proud,
     with_bearing_circlips,
 )
@@ -72,7 +72,7 @@ class Levels:
 
 
 @dataclass(frozen=True)
-class Held:
+class AxialLocation:
     """Where a shaft is held along its axis, mm.
 
     Parameters
@@ -91,14 +91,14 @@ class Held:
     ends: tuple[float, float] = (0.0, 0.0)
 
     @classmethod
-    def of(cls, seat: Seat, levels: Levels) -> "Held":
+    def of(cls, seat: Seat, levels: Levels) -> "AxialLocation":
         """By the arrangement of the bearings of a seat."""
         bearing = seat.bearing
         if not seat.located:
             upper = levels.upper - ring_room(seat)
             return cls(levels.lower - bearing.width, upper, (levels.lower, upper - PLAY))
         low, upper = levels.lower + proud(bearing), levels.upper + FREE
-        ends = (beyond(bearing, drawn_ring(bearing)), beyond(bearing, 0.0))
+        ends = (overhang(bearing, drawn_ring(bearing)), overhang(bearing, 0.0))
         return cls(low - bearing.width, upper, (low, upper), ends)
 
     def foot(self, stub: tuple[float, float] | None) -> float:
@@ -155,7 +155,7 @@ def collar(hub: Hub) -> float:
 
 def sections(seat: Seat, levels: Levels, stub: tuple[float, float] | None = None) -> list[Step]:
     """The steps from below; ``stub``: diameter and length, mm, below the lower bearing."""
-    hub, bearing, ring, held = seat.spindle.hub, seat.bearing, seat.circlip, Held.of(seat, levels)
+    hub, bearing, ring, held = seat.spindle.hub, seat.bearing, seat.circlip, AxialLocation.of(seat, levels)
     (low, high), (below, above), fit = held.shoulders, held.ends, shaft_fit(bearing.bore, "j6")
     steps = [Step(stub[0], stub[1] - below, shaft_fit(stub[0], "h6"))] if stub else []
     steps += [
@@ -175,7 +175,7 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     body, axis = f"spindle-{spindle.name}", f"axis-{spindle.name}"
     kit.places[body] = Place((0.0, 0.0, -spindle.origin), turned(hub.key_angle), spindle.body)
     kit.places[axis] = Place((*spindle.point, 0.0))
-    held = Held.of(seat, levels)
+    held = AxialLocation.of(seat, levels)
     foot = held.foot(stub)
     over = hub.high + hub_room(seat)
     groove = Groove(over - foot, ring.width, ring.groove, ring.tolerance)
