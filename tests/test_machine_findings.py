@@ -255,9 +255,17 @@ def test_check_tells_it_as_json_with_a_change_that_was_tried(tmp_path: Path, com
         (FOUR_BAR, 'output = "follower"\nload = 0.1\nmargin = 1.5\ngear = 1', []),
         (
             SLIDER,
-            'bearing = "62"\nplate_thickness = 20\nplate_material = "steel"\ncover = true\nguard = true\n'
+            'bearing = "62"\nbearing_arrangement = "locating-free"\nplate_thickness = 20\nplate_material = "steel"\ncover = true\nguard = true\n'
             "axial_gap = 4\nplates = [10]",
-            ["bearing", "plate_thickness", "plate_material", "cover", "guard", "axial_gap"],
+            [
+                "bearing",
+                "bearing_arrangement",
+                "plate_thickness",
+                "plate_material",
+                "cover",
+                "guard",
+                "axial_gap",
+            ],
         ),
     ],
 )

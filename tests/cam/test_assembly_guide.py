@@ -261,8 +261,10 @@ def test_a_shaft_is_fast_in_its_bearing_and_in_its_coupling():
     )
     motor = turned("motor", Turned((Length(37.0, 50.0), Length(6.0, 13.0))), -65.0, "still")
     found = [words for words, _ in told((shaft, clamped, motor), still=("still",))]
-    assert any("motor (3) goes into coupling (2): tighten its screw there." in words for words in found)
-    assert any("Tighten its screw on this shaft" in words for words in found)
+    assert any(
+        "motor (3) goes 13.0 mm into coupling (2): tighten its screw there." in words for words in found
+    )
+    assert any("Its other screw stays loose until both shafts stand." in words for words in found)
     assert not any("turn freely" in words for words in found)
 
 

@@ -3,7 +3,7 @@ import re
 
 import pytest
 
-from mechwright.contracts.materials import MATERIALS
+from mechwright.contracts.materials import GROUPS
 from mechwright.errors import DesignError, OutputError, ToolError
 from mechwright_cam.shop.library import built_in, load_library
 from mechwright_cam.shop.tool import ToolKind
@@ -34,7 +34,7 @@ def test_built_in_tools_know_every_material_and_have_sensible_data():
         ToolKind.TAP,
     }  # which are made for one hole each
     for tool in library:
-        assert set(tool.cutting) == set(MATERIALS), tool.name
+        assert set(tool.cutting) == set(GROUPS), tool.name
         for data in tool.cutting.values():
             assert 0.001 < data.chip_load / tool.diameter < 0.03, tool.name
             assert 20 <= data.cutting_speed <= 300

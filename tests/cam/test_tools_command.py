@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rs274 import needs_rs274, run_rs274
 
-from mechwright.contracts.materials import MATERIALS
+from mechwright.contracts.materials import GROUPS
 from mechwright.designs.design import load
 from mechwright.errors import DesignError, OutputError
 from mechwright.pipeline import Build, Wanted
@@ -113,7 +113,7 @@ def some_tool(draw, number):
         step_over=st.floats(0.1, 1),
         plunge=st.floats(0.1, 1) if kind not in {ToolKind.DRILL, ToolKind.SPOT_DRILL} else st.just(0.3),
     )
-    said["cutting"] = draw(st.dictionaries(st.sampled_from(sorted(MATERIALS)), data, max_size=2))
+    said["cutting"] = draw(st.dictionaries(st.sampled_from(sorted(GROUPS)), data, max_size=2))
     return Tool.model_validate(said)
 
 

@@ -346,9 +346,8 @@ def test_a_plate_that_is_too_thin_for_its_bearings_is_refused_with_the_size_that
     keys = MachineSettings(frame="plates", plate_thickness=9.0)
     (fault,) = frame_around(keys, two(90.0), parts, motion, Wanted()).findings
     assert (fault.code, fault.value, fault.limit) == ("frame.plate-thickness", 9.0, 12.0)
-    assert least_thickness([seat.bearing for seat in seats(two(90.0), keys)[0]]) <= thickness_for(
-        [seat.bearing for seat in seats(two(90.0), keys)[0]], "aluminium"
-    )
+    chosen = seats(two(90.0), keys)[0]
+    assert least_thickness(chosen) <= thickness_for(chosen, "aluminium")
 
 
 def test_what_passes_an_axis_is_named_with_the_gap_that_frees_it():

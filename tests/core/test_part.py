@@ -70,7 +70,5 @@ def test_a_plate_says_how_thick_it_is_and_a_solid_of_its_own_does_not():
 def test_materials_are_looked_up_by_name():
     assert material("steel").density == 7.85
     assert all(name == item.name for name, item in MATERIALS.items())
-    with pytest.raises(
-        DesignError, match="'wood' is not known; one of: aluminium, brass, polycarbonate, pom, steel"
-    ):
+    with pytest.raises(DesignError, match=r"'wood' is not known; one of: 1\.4301, .*, aluminium, brass"):
         material("wood")

@@ -8,14 +8,17 @@ from hypothesis import strategies as st
 
 from mechwright import DesignError
 from mechwright.contracts.materials import MATERIALS
-from mechwright.machine.frame.base import HAND, SAG, WEIGHT, base_stock, foot_fixing, least_thickness
+from mechwright.machine.frame.base import HAND, SAG, WEIGHT, base_stock, foot, foot_fixing, least_thickness
 from mechwright.mechanics.strength.allowed import allowed
 from mechwright.standards.bearings import bearing
+from mechwright.standards.couplings import INCH_BORES, coupling_for
 from mechwright.standards.dowels import dowel
+from mechwright.standards.motors import motor
 from mechwright.standards.ordering import inch_length, kinds, order_of
 from mechwright.standards.screws import ENGAGEMENT, SOFT, needs_washer, screw, screw_size, washer
 from mechwright.standards.stock import (
     CLEAN_UP,
+    InchSize,
     bar_for,
     bar_stock,
     inch_size,
@@ -116,7 +119,9 @@ def test_washers_lie_on_plastics_and_over_coarse_holes():
 
 
 def test_threads_engage_as_long_as_their_material_asks():
-    assert ENGAGEMENT == {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+    grades = {"5754": 2.0, "5083": 2.0}
+    groups = {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+    assert groups | grades == ENGAGEMENT
 
 
 @pytest.mark.parametrize(
@@ -155,3 +160,35 @@ def test_an_inch_screw_is_as_long_as_the_metric_one_to_half_a_step():
 
 def test_a_standard_that_is_withdrawn_is_not_ordered():
     assert not {"DIN 127", "DIN 128", "DIN 6797", "DIN 6798"} & set(kinds())
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "words"),
+    [
+        (5, 8, "bores 5 mm and 8 mm, or 5/16 in on a stub of 7.938 mm"),
+        (6.35, 10, "bores 1/4 in and 10 mm, or 3/8 in on a stub of 9.525 mm"),
+        (6, 6.35, "bores 6 mm and 1/4 in"),
+        (5, 6, "bores 5 mm and 6 mm, or 1/4 in on a stub of 6.35 mm"),
+    ],
+)
+def test_a_coupling_by_the_inch_keeps_the_motors_shaft(lower, upper, words):
+    found = order_of(coupling_for(lower, upper, 0.3).bought)
+    assert found.inch.endswith(f" in, {words}")
+    for bore, name in INCH_BORES.items():
+        assert abs(InchSize(name).size - bore) < 0.5
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("NEMA 17 - 40", "the same; shaft 5 mm (0.197 in), screws M3 in its face"),
+        ("NEMA 23 - 56", "the same; shaft 1/4 in, screws #10-32 through its flange"),
+        ("37D 131:1", "the same motor; shaft 6 mm (0.236 in), screws M3 in its face"),
+    ],
+)
+def test_a_motor_by_the_inch_says_its_shaft_and_its_screws(name, words):
+    assert order_of(motor(name).bought).inch == words
+
+
+def test_a_foot_by_the_inch_has_the_thread_of_its_screw():
+    assert order_of(foot()).inch == "rubber bumper 3/4 x 5/8 in, thread #10-32 inside"

@@ -220,6 +220,12 @@ def test_pillars_stand_clear_of_gears_and_gears_hang_clear_of_the_motors_plate()
         ({"frame": "plates"}, {}, "frame.own-ground", {"machine.frame": "base"}),
         ({"bearing": "60"}, {}, "frame.own-ground", {"machine.bearing": "auto"}),
         ({"guard": True}, {}, "frame.own-ground", {"machine.guard": False}),
+        (
+            {"bearing_arrangement": "locating-free"},
+            {},
+            "frame.own-ground",
+            {"machine.bearing_arrangement": "floating"},
+        ),
         ({"cover": True}, {}, "frame.own-ground", {"machine.cover": False}),
         ({"plate_thickness": 12.0}, {}, "frame.own-ground", {"machine.plate_thickness": None}),
     ],

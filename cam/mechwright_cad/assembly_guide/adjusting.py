@@ -1,9 +1,9 @@
 """What is set, measured and tried while a machine is put together: motor, float, shafts, backlash, run-in."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 
-from mechwright.contracts.axial_stack import AxialStack
+from mechwright.contracts.axial_stack import AxialStack, StackLength
 from mechwright.mechanics.mating.rounds import Match
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_order.groups import is_bearing
@@ -22,7 +22,6 @@ class Adjusting:
         self.plan, self.stacks = plan, tuple(stacks)
         self._main = [step for step in plan.steps if step.root == plan.order.root]
         self._turned: set[str] = set()
-        self._measured: set[str] = set()
 
     def waits(self, match: Match) -> int | None:
         """The step at which the coupling's screw on a motor is tightened, where that is a later one."""
@@ -48,8 +47,8 @@ class Adjusting:
         """How motor and shaft come in line, at the step that fastens the motor."""
         if self.aligned == self.plan.steps.index(step) + 1:
             yield (
-                "Align the motor before its screws are tight: turn the coupling by hand, and shift the motor "
-                "until the coupling neither wobbles nor binds through a whole turn."
+                "Turn them in until their heads just rest. Turn the coupling by hand, and shift the motor "
+                "until the coupling neither wobbles nor binds through a whole turn; only then tighten."
             )
             yield "Tighten the screw of the coupling on the motor's shaft last, and turn once more by hand."
 
@@ -80,14 +79,70 @@ class Adjusting:
 
     def measured(self, step: Step) -> Iterator[str]:
         """Axial stacks whose parts are all there since this step, with the rings that each takes."""
-        now = {self.plan.bodies[k].part.name for k in (*step.onto, *step.moved)}
-        before = {self.plan.bodies[k].part.name for k in step.onto}
+        number = self.plan.steps.index(step) + 1
         for one in self.stacks:
-            rings = "" if one.shimming is None else one.shimming.part
-            parts = {each.part for each in one.lengths} - {"", rings}
-            if parts and parts <= now and not parts <= before and one.name not in self._measured:
-                self._measured.add(one.name)
+            if self._measuring.get(one.name) == number:
                 yield _measured(one)
+
+    def omitted_rings(self, step: Step) -> Iterator[str]:
+        """Shim rings that a later step chooses."""
+        number = self.plan.steps.index(step) + 1
+        names = {self.plan.bodies[k].part.name for k in step.moved}
+        later = [
+            at
+            for one in self.stacks
+            if one.shimming is not None and one.shimming.part in names
+            for at in (self._measuring.get(one.name, 0),)
+            if at > number
+        ]
+        if later and len(names) == 1:
+            yield f"Leave it out at first: step {min(later)} measures the play and says what goes in here."
+
+    def chosen_at(self, shaft: int) -> int | None:
+        """The step that chooses the rings over the hub of a shaft, by its body; None where there are none."""
+        name = self.plan.bodies[shaft].part.name
+        found = [
+            self._measuring[one.name]
+            for one in self.stacks
+            if one.shimming is not None and one.hub_on == name and one.name in self._measuring
+        ]
+        return min(found, default=None)
+
+    @cached_property
+    def _measuring(self) -> dict[str, int]:
+        """Names of stacks to the steps, from 1, at which they are measured: all parts there, screws in."""
+        found: dict[str, int] = {}
+        for number, step in enumerate(self.plan.steps, start=1):
+            now, before = self._there((*step.onto, *step.moved)), self._there(step.onto)
+            for one in self.stacks:
+                rings = "" if one.shimming is None else one.shimming.part
+                parts = [each for each in one.lengths if each.part not in {"", rings}]
+                if parts and all(map(now, parts)) and not all(map(before, parts)) and one.measurable:
+                    found.setdefault(one.name, self._screwed(number))
+        return found
+
+    def _screwed(self, number: int) -> int:
+        """The step after one that puts screws into what came then; that step itself where none does."""
+        steps = self.plan.steps
+        if number < len(steps) and steps[number].root == steps[number - 1].root:
+            joints = [self.plan.joint(k) for k in steps[number].moved]
+            came = {*steps[number - 1].moved}
+            if joints and all(one is not None and came & {k for k, _ in one.clamped} for one in joints):
+                return number + 1
+        return number
+
+    def _there(self, numbers: Iterable[int]) -> Callable[[StackLength], bool]:
+        """Whether some bodies have the part of a length: that copy of it where one of several is meant."""
+        bodies = [self.plan.bodies[k] for k in numbers]
+        names = {body.part.name for body in bodies}
+        copies = {(body.part.name, body.instance.body, round(body.instance.z, 6)) for body in bodies}
+
+        def there(length: StackLength) -> bool:
+            if length.copy is None:
+                return length.part in names
+            return (length.part, length.copy[0], round(length.copy[1], 6)) in copies
+
+        return there
 
     def run_in(self, step: Step) -> Iterator[str]:
         """What is done when all is together."""
@@ -106,9 +161,9 @@ def _measured(stack: AxialStack) -> str:
         return f"Check the {stack.name}: it is {low:.2f} to {high:.2f} mm."
     how = f"Push and pull, and measure the {stack.name} with a dial gauge"
     rings = " + ".join(f"{ring:g}" for ring in shimming.rings(stack.middle))
-    given = f", for {stack.middle:.2f} mm {rings}" if rings else ""
+    given = f" At {stack.middle:.2f} mm, say, put in {rings} mm." if rings else ""
     return (
-        f"{how}, without rings: it is {low:.2f} to {high:.2f} mm. Rings {shimming.designation} leave "
-        f"{shimming.least:g} to {shimming.least + shimming.step:g} mm of it{given}. They go "
-        f"{shimming.where}: put them in, and assemble again."
+        f"{how}, without rings: it is {low:.2f} to {high:.2f} mm. Choose rings {shimming.designation} that "
+        f"leave {shimming.least:g} to {shimming.least + shimming.step:g} mm of it.{given} They go "
+        f"{shimming.where}: take it apart as far as that, put them in, and assemble again."
     )

@@ -1,7 +1,9 @@
 """What bought parts take to be fitted: tool, torque, compound."""
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterable
 
+from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.part import Part
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright.standards import bearings, bushes, circlips, dowels
@@ -9,6 +11,11 @@ from mechwright.standards.hexagon_keys import BIT_LENGTH
 from mechwright_cad.assembly_order.reach import Tool
 from mechwright_cad.bodies import is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint, screw_of
+
+_KEY = re.compile(r"DIN 6885 - [AB] ([\d.]+) x ")
+
+KEY_WIDTH = "h9"
+"""Class of the width of a parallel key (DIN 6885-1)."""
 
 LOCKER = "thread locker of medium strength"
 
@@ -66,10 +73,32 @@ def screwed(
     return f"{tool}; tighten to {torque} N m ({screw.grade}, oiled): {name(weakest)} bears no more {where}."
 
 
+def keyed(key: Part, shafts: Iterable[tuple[int, Part]], name: Callable[[int], str]) -> str:
+    """How tightly a parallel key goes into its seat in one of the shafts, each with its number.
+
+    Empty for what is no parallel key, and where no shaft has a seat of its width.
+    """
+    found = _KEY.match(key.bought.designation) if key.bought is not None else None
+    if found is None:
+        return ""
+    width, bodies = float(found[1]), {one.body for one in key.instances}
+    for k, shaft in shafts:
+        seats = shaft.turned.seats if shaft.turned is not None else ()
+        seat = next((one for one in seats if one.width == width), None)
+        if seat is not None and bodies & {one.body for one in shaft.instances}:
+            hole, pin = hole_fit(width, seat.limits), shaft_fit(width, KEY_WIDTH)
+            tight, loose = pin.upper - hole.lower, hole.upper - pin.lower
+            return (
+                f"Its seat in {name(k)}, {hole.short} / {pin.name}, is from {tight:.3f} mm tight to "
+                f"{loose:.3f} mm loose: tap it in with a soft hammer, until it lies on the floor all along."
+            )
+    return ""
+
+
 def fitted(part: Part) -> str:
     """What to mind with a circlip, a bearing, a dowel or a coupling; empty for the rest."""
     if is_coupling(part):
-        return "Tighten its screw on this shaft; that on the other shaft comes once both stand."
+        return "Its other screw stays loose until both shafts stand."
     standard = part.bought.standard if part.bought is not None else ""
     if standard in circlips.STANDARDS:
         kind = "outer" if standard == circlips.ON_SHAFTS else "inner"

@@ -8,12 +8,13 @@ from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.bodies import rigid
 from mechwright.contracts.fitting_marks import FittingMark
 from mechwright.contracts.marking import FITTING_MARKS
-from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
+from mechwright.mechanics.mating.rounds import PARALLEL, Match, matches, rounds_of
 from mechwright_cad.assembly_guide.adjusting import Adjusting
 from mechwright_cad.assembly_guide.columns import Columns
 from mechwright_cad.assembly_guide.handling import Handling, whence
+from mechwright_cad.assembly_guide.pin_places import chosen_hole, depths
 from mechwright_cad.assembly_guide.pressing import BENCH, pressed
-from mechwright_cad.assembly_guide.tools import fitted, screwed
+from mechwright_cad.assembly_guide.tools import fitted, keyed, screwed
 from mechwright_cad.assembly_order.groups import is_bearing
 from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
@@ -82,22 +83,29 @@ class Words:
         found = matches(plan.bodies, plan.sample, step.moved, step.onto)
         turn = self._handling.turn(step)
         said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
+        said += [*self._from_below(step), *self._adjusting.omitted_rings(step)]
+        aligned = list(self._adjusting.aligning(step))
+        said += aligned[:1]
         said += dict.fromkeys(self._fits(match, step) for match in found if self._fast(match))
+        said += dict.fromkeys(depths(plan.order, step, found, self.name))
+        said += dict.fromkeys(filter(None, (chosen_hole(plan.order, match, self.name) for match in found)))
         new = [k for k in step.moved if self._first[k] is step]
         said += dict.fromkeys(sentence for k in new for sentence in self._ends(k))
         said += dict.fromkeys(filter(None, (self._screwed(k, self._columns.later(k), step) for k in new)))
         if not any(self._columns.later(k) for k in new):
             said += self._adjusting.crosswise(step)
-        said += self._adjusting.aligning(step)
+        said += aligned[1:]
         said += self._drawn_tight(step)
         if self._tight_in(step) and plan.order.seats.is_bush(step.moved[0]):
             said.append(f"{BENCH} Use a mandrel as thick as the shaft, with a shoulder.")
         said += dict.fromkeys(filter(None, (fitted(plan.bodies[k].part) for k in new)))
+        there = [(k, plan.bodies[k].part) for k in (*step.onto, *step.moved)]
+        said += dict.fromkeys(filter(None, (keyed(plan.bodies[k].part, there, self.name) for k in new)))
         said += dict.fromkeys(
             sentence
             for k in (*step.onto, *step.moved)
-            if self._last.get(k) is step
             for mark in plan.bodies[k].part.marks
+            if (self._first if mark.joins else self._last).get(k) is step
             for sentence in self._mark(k, mark)
         )
         said += dict.fromkeys(self._tries(step, found))
@@ -137,12 +145,22 @@ class Words:
         if self._handling.stands(step):
             yield "Stand the whole on it."
 
+    def _from_below(self, step: Step) -> Iterator[str]:
+        """Screws that come from below once the whole stands on its feet."""
+        stood = any(self._handling.stands(one) for one in self.plan.steps[: self.plan.steps.index(step)])
+        below = step.way is not None and step.way[2] * step.down[2] < -PARALLEL
+        if stood and below and any(self.plan.joint(k) is not None for k in step.moved):
+            yield "Lay the whole on its side for it, or let it stand over the edge of the bench."
+
     def _fits(self, match: Match, step: Step) -> str:
         """How tightly a pin goes into its hole, and how it is brought there."""
         later = self._adjusting.waits(match)
         if later is not None:
             pin, hole = self.name(match.pin), self.name(match.hole)
-            return f"{pin} goes into {hole}: leave its screw there loose until step {later}."
+            return (
+                f"{pin} goes {match.overlap:.1f} mm into {hole}: leave its screw there loose, step {later} "
+                "tightens it."
+            )
         order = self.plan.order
         press = pressed(order, step, match, self.name) if order.seats.kind(match) == "pressed" else ""
         ring = match.play[1] > 0 and any(is_bearing(self.plan.bodies[k]) for k in (match.pin, match.hole))
@@ -230,7 +248,7 @@ class Words:
         if match.inside.threaded:
             return f"{pin} screws into {hole}."
         if is_coupling(self.plan.bodies[match.hole].part):
-            return f"{pin} goes into {hole}: tighten its screw there."
+            return f"{pin} goes {match.overlap:.1f} mm into {hole}: tighten its screw there."
         if match.missing_fits:
             return f"{pin} goes through {hole} with room, {match.text}: it is no seat."
         if most <= 0:
@@ -246,7 +264,9 @@ class Words:
         """What keeps a pin from turning in a hole that it slides in."""
         if self.plan.order.seats.kind(match) != "bonded":
             return ""
-        return " Nothing else holds it: bond it with retaining compound."
+        later = self._adjusting.chosen_at(match.pin)
+        when = f", once step {later} has chosen the rings" if later else ""
+        return f" Nothing else holds it: bond it with retaining compound{when}."
 
     def _tries(self, step: Step, found: Sequence[Match]) -> Iterator[str]:
         """What has to move by hand now, as it first can."""

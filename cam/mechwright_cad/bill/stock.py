@@ -128,7 +128,7 @@ def _plate(
         name,
         f"plate {x:.1f} x {y:.1f} x {thick:g}",
         grades.plate,
-        "as rolled, sawn" if name not in _EXTRUDED else "as extruded, sawn",
+        f"{_SURFACES.get(name, 'as rolled')}, sawn",
         f"{grades.plate}, plate {thick:g}, sawn {sawn} mm",
         f"{grades.us_plate}, plate {_inches(inch.name, inch.size, z)}" if inch else "",
         _grams(x * y * thick, name),
@@ -136,8 +136,8 @@ def _plate(
     )
 
 
-_EXTRUDED = frozenset({"pom", "polycarbonate"})
-"""Materials whose plates no mill has rolled."""
+_SURFACES = {"pom": "as extruded", "polycarbonate": "as extruded", "5083": "both sides milled"}
+"""Of plates that no mill has rolled."""
 
 
 def _bar(part: Part, turned: Turned) -> Piece:

@@ -219,6 +219,8 @@ class Touching:
             radius = (joint.what.of.clearance("coarse") + joint.what.head) / 4
             left = self._open(joint.hole.mouth, radius, low, high)
             play = self._play(joint.screw, joint.holder)
+            # A retainer lies on what it clamps, and not on what its screws go into.
+            play += sum(self.bodies[k].part.play for k, _ in joint.clamped)
             if left > CONTACT + play:
                 yield Gap("screw", body.name, self.bodies[joint.holder].name, left, play)
 

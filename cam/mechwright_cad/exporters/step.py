@@ -1,5 +1,6 @@
-"""STEP files (ISO 10303-21, AP214) through the CAD kernel, the same bytes for the same parts.
+"""STEP files (ISO 10303-21) through the CAD kernel, the same bytes for the same parts.
 
+Files are of AP214, those of parts with limits of size of AP242, which has a place for them.
 Three things in the kernel's files vary: the time stamp, the product names that it invents, and the numbers of
 assembly occurrences, which count on through the process. All are set here before the file is written.
 """
@@ -30,7 +31,8 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
 from mechwright_cad.exporters.decimals import of_step
-from mechwright_cad.exporters.step_text import sort_styles
+from mechwright_cad.exporters.size_limits import add_limits, limited_faces
+from mechwright_cad.exporters.step_text import sort_styles, typed_measures
 from mechwright_cad.solids import solid as solids
 
 TIME_STAMP = "2000-01-01T00:00:00"
@@ -39,6 +41,8 @@ TIME_STAMP = "2000-01-01T00:00:00"
 # Curves on surfaces are left out: they double the size and the time, and readers compute them again.
 _SETTINGS_INT = {"write.surfacecurve.mode": 0, "write.precision.mode": 0, "write.stepcaf.subshapes.name": 0}
 _SETTINGS_TEXT = {"xstep.cascade.unit": "MM", "write.step.unit": "MM", "write.step.schema": "AP214IS"}
+_LIMITED_INT = {**_SETTINGS_INT, "write.stepcaf.subshapes.name": 1}
+_LIMITED_TEXT = {**_SETTINGS_TEXT, "write.step.schema": "AP242DIS"}
 
 
 def part(part: Part) -> bytes:
@@ -51,7 +55,8 @@ def part(part: Part) -> bytes:
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(part.name))
     colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
     colours.SetColor(label, cq.Color(*part.colour).wrapped, XCAFDoc_ColorType.XCAFDoc_ColorGen)
-    return _write(document, part.name, [part])
+    add_limits(document, label, part)
+    return _write(document, part.name, [part], limited=bool(limited_faces(part)))
 
 
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
@@ -75,14 +80,20 @@ def _name_products(label: TDF_Label, names: list[str]) -> None:
 
 
 def _write(
-    document: TDocStd_Document, name: str, parts: Sequence[Part], *, occurrences: bool = False
+    document: TDocStd_Document,
+    name: str,
+    parts: Sequence[Part],
+    *,
+    occurrences: bool = False,
+    limited: bool = False,
 ) -> bytes:
     text = io.BytesIO()
     # The first writer of a process makes the settings known; before that they cannot be set.
     writer = STEPCAFControl_Writer(XSControl_WorkSession(), False)
-    with _settings():
+    with _settings(limited=limited):
         writer.SetColorMode(True)
         writer.SetNameMode(True)
+        writer.SetDimTolMode(limited)
         if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
             raise GeometryError(f"the CAD kernel cannot turn {name} into STEP entities")
         model = writer.ChangeWriter().Model()
@@ -93,7 +104,7 @@ def _write(
         status = writer.WriteStream(text)
     if status != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise GeometryError(f"the CAD kernel cannot write {name} as STEP ({status.name})")
-    return of_step(sort_styles(text.getvalue()))
+    return of_step(sort_styles(typed_measures(text.getvalue())))
 
 
 def _set_header(model: StepData_StepModel, name: str) -> None:
@@ -133,11 +144,11 @@ def _text(text: str) -> TCollection_HAsciiString:
 
 
 @contextmanager
-def _settings() -> Iterator[None]:
+def _settings(*, limited: bool) -> Iterator[None]:
     """The kernel's writing settings are global to the process: set ours, and put the others back."""
     numbers = {key: Interface_Static.IVal_s(key) for key in _SETTINGS_INT}
     texts = {key: Interface_Static.CVal_s(key) for key in _SETTINGS_TEXT}
-    _set(_SETTINGS_INT, _SETTINGS_TEXT)
+    _set(*((_LIMITED_INT, _LIMITED_TEXT) if limited else (_SETTINGS_INT, _SETTINGS_TEXT)))
     try:
         yield
     finally:

@@ -75,7 +75,7 @@ def _materials(tools: Sequence[Tool]) -> Iterable[str]:
     """For which materials the tools have cutting data, tools of the same ones in one paragraph."""
     groups: dict[tuple[str, ...], list[Tool]] = {}
     for tool in tools:
-        groups.setdefault(tuple(name for name in MATERIALS if name in tool.cutting), []).append(tool)
+        groups.setdefault(tuple(name for name in MATERIALS if name in set(tool.cutting)), []).append(tool)
     for materials, found in groups.items():
         start = f"cutting data for {', '.join(materials)}" if materials else "no cutting data"
         which = "all" if len(groups) == 1 else " ".join(f"T{tool.number}" for tool in found)

@@ -11,7 +11,7 @@ from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.planning.uses import uses
 from mechwright_cam.shop.library import Library, built_in
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_cam.shop.tool import CuttingTable, Tool, ToolKind
 from mechwright_cam.shop.workshop_file import Shop
 
 
@@ -42,7 +42,7 @@ def _without_data(part: Part, cam: CamSettings, library: Library, assignments: A
         alike = [one for one in built_in() if one.kind is tool.kind and part.material in one.cutting]
         if part.material not in tool.cutting and alike:
             data = min(alike, key=lambda one: abs(one.diameter - tool.diameter)).cutting[part.material]
-            cutting = {**tool.cutting, part.material: data}
+            cutting = CuttingTable({**tool.cutting, part.material: data})
             supposed.append(tool.model_copy(update={"cutting": cutting}))
     return _used(part, cam, library, supposed, assignments) or [] if supposed else []
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from mechwright.contracts.materials import MATERIALS
+from mechwright.contracts.materials import GROUPS, MATERIALS
 from mechwright.designs.files import read_toml
 from mechwright.designs.inches import converted, told_in, units_of
 from mechwright.designs.tables import read_table
@@ -16,7 +16,7 @@ from mechwright.reading import kind_of, read_bytes
 from mechwright_cam.shop.crib import read_crib
 from mechwright_cam.shop.formats.contract import Format
 from mechwright_cam.shop.formats.known import format_of
-from mechwright_cam.shop.tool import CuttingChange, CuttingData, Tool, ToolKind
+from mechwright_cam.shop.tool import CuttingChange, CuttingData, CuttingTable, Tool, ToolKind
 
 BUILT_IN = Path(__file__).with_name("tools.toml")
 """The file of the cutters that come with the program."""
@@ -91,8 +91,8 @@ def _changed(tool: Tool, change: CuttingChange) -> Tool:
         said["chip_load"] = tool.pitch / tool.flutes
     cutting = {name: data.model_copy(update=said) for name, data in tool.cutting.items()}
     if "cutting_speed" in said and "chip_load" in said:
-        cutting = dict.fromkeys(MATERIALS, CuttingData(**said)) | cutting
-    return tool.model_copy(update={"cutting": cutting})
+        cutting = dict.fromkeys(GROUPS, CuttingData(**said)) | cutting
+    return tool.model_copy(update={"cutting": CuttingTable(cutting)})
 
 
 @cache

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from mechwright.designs.inches import Units, written
-from mechwright.designs.text import toml
+from mechwright.designs.text import bare_key, toml
 from mechwright_cam.shop.tool import HOLLOW, Tool
 
 HEAD = "# A tool library: the whole crib, so the built-in cutters are not at hand.\nbuilt_in = false\n"
@@ -24,8 +24,11 @@ def tool_table(tool: Tool, units: Units = "mm") -> str:
     if tool.cutting:
         lines.append("[tool.cutting]")
     for name, data in tool.cutting.items():
-        keys = _in(units, data.model_dump(exclude_defaults=True), f"cutting.{name}.")
-        lines.append(f"{name} = {{ {', '.join(f'{key} = {toml(value)}' for key, value in keys.items())} }}")
+        # A dot, as in 1.4301, is none of a path.
+        where = f"cutting.{name.replace('.', '-')}."
+        keys = _in(units, data.model_dump(exclude_defaults=True), where)
+        written_out = ", ".join(f"{key} = {toml(value)}" for key, value in keys.items())
+        lines.append(f"{bare_key(name)} = {{ {written_out} }}")
     return "\n".join(lines) + "\n"
 
 

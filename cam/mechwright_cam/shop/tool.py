@@ -4,8 +4,9 @@ from collections.abc import Iterable
 from enum import StrEnum
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
+from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.parameters import Parameters
 from mechwright.units import Degrees, MetresPerMin, Millimetres, Ratio, convert
 
@@ -79,6 +80,26 @@ class CuttingChange(Parameters):
     plunge: Ratio | None = Field(
         None, gt=0, le=1, description="Feed of a mill straight down into material, in that of its chip load."
     )
+
+
+class CuttingTable(dict[str, CuttingData]):
+    """Cutting data by material; a grade without any is cut as its group, at its own pace.
+
+    >>> table = CuttingTable(steel=CuttingData(cutting_speed=100, chip_load=0.02))
+    >>> table["1.4301"].cutting_speed, "C45" in table, "7075" in table
+    (60.0, True, False)
+    """
+
+    def __missing__(self, name: str) -> CuttingData:
+        known = MATERIALS.get(name)
+        if known is None or known.group == name:
+            raise KeyError(name)
+        found = self[known.group]
+        return found.model_copy(update={"cutting_speed": round(known.pace * found.cutting_speed, 6)})
+
+    def __contains__(self, name: object) -> bool:
+        known = MATERIALS.get(name) if isinstance(name, str) else None
+        return super().__contains__(name) or (known is not None and super().__contains__(known.group))
 
 
 class Tool(Parameters):
@@ -157,6 +178,11 @@ class Tool(Parameters):
     cutting: dict[str, CuttingData] = Field(
         default_factory=dict, description="Material name to cutting data."
     )
+
+    @field_validator("cutting", mode="after")
+    @classmethod
+    def _by_group(cls, said: dict[str, CuttingData]) -> dict[str, CuttingData]:
+        return CuttingTable(said)
 
     @model_validator(mode="before")
     @classmethod

@@ -34,6 +34,8 @@ class StackLength:
         Whether its limits are a maker's: such parts come from one lot and are seldom centred.
     part
         The part that has this length; empty where none has.
+    copy
+        Body and height of the copy of that part, mm, where it has several; None for any of them.
 
     Raises
     ------
@@ -48,6 +50,7 @@ class StackLength:
     upper: float
     bought: bool = False
     part: str = ""
+    copy: tuple[str, float] | None = None
 
     def __post_init__(self) -> None:
         if self.sign not in {1, -1}:
@@ -163,6 +166,11 @@ class AxialStack:
         The length that a remedy changes; empty for the first.
     key
         The design-file key that changes it; empty where none does.
+    hub_on
+        The shaft on which a hub has this play; empty for other stacks. A hub without a key is bonded once the
+        rings are chosen.
+    measurable
+        Whether it can be measured while the machine is put together.
 
     Raises
     ------
@@ -177,6 +185,8 @@ class AxialStack:
     shimming: Shimming | None = None
     adjustable: str = ""
     key: str = ""
+    hub_on: str = ""
+    measurable: bool = True
 
     def __post_init__(self) -> None:
         if not self.lengths:

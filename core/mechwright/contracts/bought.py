@@ -60,6 +60,8 @@ class Bought:
     stretched
         Whether its length changes with the motion, as of a spring: it is drawn as it is at the start, and the
         check for interference passes it over.
+    inch
+        What is sold in its place where sizes are in inches, if no standard says it; empty for nothing.
     """
 
     designation: str
@@ -70,6 +72,7 @@ class Bought:
     threads: tuple[BlindThread, ...] = ()
     fits: tuple[Fit, ...] = ()
     stretched: bool = False
+    inch: str = ""
 
     def __post_init__(self) -> None:
         if not self.designation.strip():

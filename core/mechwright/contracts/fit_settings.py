@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -59,6 +59,11 @@ class FitSettings(Parameters):
     bush: ShaftName = Field("r6", description="Of the outside of a bush that is made.")
     housing: HoleName = Field("H7", description="Of the hole into which a bush or a dowel is pressed.")
     dowel: HoleName = Field("F7", description="Of a dowel's hole in the part that comes off.")
+    key: Literal["auto", "N9", "P9"] = Field(
+        "auto",
+        description="Of the key's seat in a shaft. auto: P9 where the torque of the drive changes its sense "
+        "within a turn, else N9. With P9 the hub's seat on the shaft is j6 in place of h6.",
+    )
     spacer: HoleName = Field("H11", description="Of a spacer on its shaft, which it centres on nothing.")
 
 

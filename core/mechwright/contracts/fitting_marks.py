@@ -23,6 +23,9 @@ class FittingMark:
         A sentence for whoever puts the part in: which tooth goes into which space, at which position.
     dots
         Places on the top face, mm, in the part's coordinates. Without any the note alone is told.
+    joins
+        Whether the note is about the part that this one is fixed to: it is told as the part itself is put on.
+        Else it is told as the part, or the group that it is fixed to by then, comes to its place.
 
     Raises
     ------
@@ -32,6 +35,7 @@ class FittingMark:
 
     note: str
     dots: tuple[Point, ...] = ()
+    joins: bool = False
 
     def __post_init__(self) -> None:
         if not self.note.strip():

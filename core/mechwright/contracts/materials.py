@@ -13,14 +13,25 @@ those of carbide. The specific cutting force is Kienzle's, k_c = k_c1.1 h^-m wit
 * polycarbonate: cut as acetal, with a sharp edge and air.
 
 What a cutter's maker says of it counts more than any of this.
+
+A design file names a group, ``"aluminium"``, or a grade of it, ``"7075"``. A group is ordered in its usual
+grade. A grade has a strength and a density of its own, and is cut as its group, stainless steel more slowly.
+
+Glossary
+--------
+group
+    Materials that are cut with the same data: each is its own group, a grade is of that of its base.
 """
 
-from dataclasses import dataclass
-from typing import Annotated
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Annotated, TypeVar
 
 from pydantic import AfterValidator, Field
 
 from mechwright.errors import DesignError
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +55,8 @@ class Material:
     ----------
     name
         As design files say it.
+    group
+        Whose cutting data and sold sizes it has where none are its own.
     density
         g/cm³.
     modulus
@@ -60,13 +73,18 @@ class Material:
         Specific cutting force of a chip 1 mm thick, N/mm² (k_c1.1).
     force_exponent
         By which the specific force grows as the chip gets thinner (m).
+    expansion
+        By how much a length grows by one kelvin, millionths of it.
     long_chips
         Whether chips of a drill do not break by themselves.
     grades
         What is ordered; handbook, unchecked.
+    pace
+        Cutting speed in that of its group.
     """
 
     name: str
+    group: str
     density: float
     modulus: float
     poisson: float
@@ -75,8 +93,10 @@ class Material:
     chip_share: tuple[float, float]
     force: float
     force_exponent: float
+    expansion: float
     long_chips: bool
     grades: Grades
+    pace: float = 1.0
 
     @property
     def unbroken(self) -> float:
@@ -100,16 +120,107 @@ _GRADES = {
     "polycarbonate": Grades("PC, clear", "PC, clear", "polycarbonate, clear", "polycarbonate, clear"),
 }
 
-MATERIALS = {
-    name: Material(name, *figures, long_chips=long_chips, grades=_GRADES[name])
+GROUPS = {
+    name: Material(name, name, *figures, long_chips=long_chips, grades=_GRADES[name])
     for name, figures, long_chips in (
-        ("aluminium", (2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25), True),
-        ("brass", (8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18), False),
-        ("steel", (7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17), True),
-        ("pom", (1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20), True),
-        ("polycarbonate", (1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20), True),
+        ("aluminium", (2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25, 23.4), True),
+        ("brass", (8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, 21.0), False),
+        ("steel", (7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17, 11.5), True),
+        ("pom", (1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20, 110.0), True),
+        ("polycarbonate", (1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20, 65.0), True),
     )
 }
+"""Materials that are cut alike, by name."""
+
+
+def _grade(
+    name: str, group: str, figures: tuple[float, float, float, float], grades: Grades, pace: float = 1.0
+) -> Material:
+    """A grade by density, modulus, strength and expansion."""
+    density, modulus, strength, expansion = figures
+    base = GROUPS[group]
+    return replace(
+        base,
+        name=name,
+        density=density,
+        modulus=modulus,
+        strength=strength,
+        expansion=expansion,
+        speed=(pace * base.speed[0], pace * base.speed[1]),
+        grades=grades,
+        pace=pace,
+    )
+
+
+_STAINLESS = 0.6
+"""Cutting speed of stainless in that of unalloyed steel: handbooks have 60 to 90 for 80 to 130 m/min."""
+
+MATERIALS = GROUPS | {
+    one.name: one
+    for one in (
+        _grade(
+            "5754",
+            "aluminium",
+            (2.67, 70_000, 80, 24.0),
+            Grades("EN AW-5754 H111", "EN AW-5754 H112", "5052-H32", "5052-H32"),
+        ),
+        _grade("6082", "aluminium", (2.70, 70_000, 250, 23.4), _GRADES["aluminium"]),
+        _grade(
+            "7075",
+            "aluminium",
+            (2.81, 72_000, 450, 23.5),
+            Grades("EN AW-7075 T651", "EN AW-7075 T6", "7075-T651", "7075-T6"),
+        ),
+        _grade(
+            "5083",
+            "aluminium",
+            (2.66, 71_000, 115, 24.0),
+            Grades("EN AW-5083 cast", "EN AW-5083 H112", "MIC-6", "5083-H112"),
+        ),
+        _grade(
+            "S235",
+            "steel",
+            (7.85, 210_000, 235, 12.0),
+            Grades("S235JR (1.0038)", "S235JRC+C (1.0122)", "ASTM A36", "1018 cold drawn"),
+        ),
+        _grade(
+            "C45",
+            "steel",
+            (7.85, 210_000, 305, 11.5),
+            Grades("C45+N (1.0503)", "C45+C (1.0503)", "1045 normalised", "1045 cold drawn"),
+        ),
+        _grade(
+            "11SMn30",
+            "steel",
+            (7.85, 210_000, 375, 11.5),
+            Grades("11SMn30+C (1.0715), flat", "11SMn30+C (1.0715)", "12L14 flat", "12L14 cold drawn"),
+        ),
+        _grade(
+            "1.4301",
+            "steel",
+            (7.90, 200_000, 210, 16.0),
+            Grades("1.4301 (X5CrNi18-10)", "1.4301 (X5CrNi18-10)", "304", "304"),
+            _STAINLESS,
+        ),
+        _grade(
+            "1.4305",
+            "steel",
+            (7.90, 200_000, 190, 16.0),
+            Grades("1.4305 (X8CrNiS18-9)", "1.4305 (X8CrNiS18-9)", "303", "303"),
+            _STAINLESS,
+        ),
+    )
+}
+"""All that a design file may name: groups, and grades of them. Handbook figures, right to 10 %, unchecked."""
+
+
+def entry(table: Mapping[str, T], name: str) -> T | None:
+    """What a table by material has of one: its own entry, or that of its group; None where it has neither.
+
+    >>> entry({"aluminium": 1.5, "5754": 2.0}, "5754"), entry({"aluminium": 1.5}, "7075"), entry({}, "pom")
+    (2.0, 1.5, None)
+    """
+    return table[name] if name in table else table.get(material(name).group)
 
 
 def material(name: str) -> Material:

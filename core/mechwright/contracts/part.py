@@ -228,8 +228,8 @@ class Part:
     thickness
         mm; 0 for a part built as a solid.
     material
-        A name of the material table: ``"aluminium"``, ``"steel"``, ``"brass"``, ``"pom"``,
-        ``"polycarbonate"``.
+        A name of the material table: a group such as ``"aluminium"`` or ``"pom"``, or a grade such as
+        ``"7075"``.
     instances
         Where copies stand in the mechanism.
     colour

@@ -52,6 +52,8 @@ class Surroundings:
         Axial stacks of these parts, each with the play that is meant.
     replaces
         Names of parts of the mechanism that stand no more, since some of ``parts`` do in their place.
+    reverses
+        Whether the torque of the drive changes its sense within a turn.
     """
 
     parts: tuple[Part, ...] = ()
@@ -59,6 +61,7 @@ class Surroundings:
     findings: tuple[Finding, ...] = ()
     stacks: tuple[AxialStack, ...] = ()
     replaces: tuple[str, ...] = ()
+    reverses: bool = False
 
     def around(self, motion: Motion) -> Motion:
         """The motion with the places as bodies, each fixed to what it stands on.

@@ -124,7 +124,8 @@ class Design:
         from mechwright.mechanics.mating.fitted import with_fits
 
         if any(part.instances for part in parts):
-            parts = with_fits(parts, self.solve(2), self.tables.get(FitsTable.name, Fits()))
+            reverses = any(around.reverses for around in self.surroundings)
+            parts = with_fits(parts, self.solve(2), self.tables.get(FitsTable.name, Fits()), reverses)
         for reader in self.readers:
             parts = reader.parts(self.tables[reader.name], parts, self.path)
         return parts

@@ -129,7 +129,7 @@ def table_lines(
             continue
         if isinstance(value, dict) and any(isinstance(one, BaseModel) for one in value.values()):
             tables += ["", f"[{where}.{key}]  # {field.description}"]
-            tables += [f"{_bare(name)} = {_inline(one)}" for name, one in value.items()]
+            tables += [f"{bare_key(name)} = {_inline(one)}" for name, one in value.items()]
             continue
         text = f"{field.description or ''}{_limits(schema[key])}"
         if value is None:
@@ -148,10 +148,10 @@ def table_lines(
 def _inline(table: BaseModel) -> str:
     """A table of a table by name, in one line."""
     given = table.model_dump(exclude_none=True)
-    return "{ " + ", ".join(f"{_bare(key)} = {toml(value)}" for key, value in given.items()) + " }"
+    return "{ " + ", ".join(f"{bare_key(key)} = {toml(value)}" for key, value in given.items()) + " }"
 
 
-def _bare(key: str) -> str:
+def bare_key(key: str) -> str:
     """A key without quotes, where TOML takes it so."""
     return key if key.isascii() and key.replace("-", "_").isidentifier() else json.dumps(key)
 

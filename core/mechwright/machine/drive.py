@@ -113,6 +113,12 @@ class Drive:
         return next(one for one in found if abs(one[0]) >= (1 - _SAME) * most)
 
     @property
+    def reverses(self) -> bool:
+        """Whether the torque of a run changes its sense by more than a trace of its peak."""
+        most = TRACE * abs(self.peak()[0])
+        return any(run.torque.min() < -most and run.torque.max() > most for run in self.runs)
+
+    @property
     def rms(self) -> float:
         """Root mean square of the torque over time, N m, of the run where it is greater."""
         return max(float(np.sqrt(self.mean_of(run.torque**2))) for run in self.runs)
@@ -177,6 +183,9 @@ class Drive:
 
 _NOTHING = 1e-6
 """Share of the greatest power below which the mean is rounding."""
+
+TRACE = 0.01
+"""Share of the peak by which a torque has to go below 0 to change its sense: less is rounding."""
 
 _SAME = 1e-6
 """Share by which speeds at both ends of a period may differ, and peaks that are equally high."""

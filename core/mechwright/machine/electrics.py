@@ -12,7 +12,9 @@ from collections.abc import Iterator
 from mechwright.machine.drive import Drive
 from mechwright.machine.motors import STEPS, Choice
 from mechwright.machine.settings import MachineSettings
+from mechwright.standards.couplings import sold_bore
 from mechwright.standards.motors import NOMINAL_VOLTAGE, STALL_CURRENT, GearMotor, Stepper
+from mechwright.standards.ordering import order_of
 from mechwright.standards.supply import Supply, next_above
 
 SUPPLY_SPARE = 1.25
@@ -65,12 +67,16 @@ def _loose(settings: MachineSettings, choice: Choice) -> Iterator[Supply]:
         what.designation,
         "no frame carries it; it is no body of the assembly",
         standard=what.standard,
+        inch=order_of(what).inch,
     )
     shaft = choice.motor.face.shaft
     if settings.gear == 1:
         order = f"flexible coupling for a shaft of {shaft:g} mm and that of the input"
         yield Supply(
-            "coupling", order, f"it carries {choice.demand.peak:.3g} N·m; motor and input never stand in line"
+            "coupling",
+            order,
+            f"it carries {choice.demand.peak:.3g} N·m; motor and input never stand in line",
+            inch=f"bore {sold_bore(shaft)} for the motor",
         )
     else:
         order = f"toothed belt, two pulleys, {settings.gear:g} to 1, for {shaft:g} mm and the input's shaft"

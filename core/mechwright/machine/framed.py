@@ -1,6 +1,7 @@
 """The frame of a design: what its family says of its shafts, and what its drive asks of them."""
 
 import math
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
@@ -9,6 +10,7 @@ from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.mounting import Flange, GroundPlate, Mounting, MountingError
 from mechwright.contracts.parameters import Parameters, kept
+from mechwright.contracts.part import Part
 from mechwright.contracts.surroundings import Surroundings
 from mechwright.errors import DesignError
 from mechwright.machine.drive import SAMPLES, drive_of
@@ -56,6 +58,19 @@ def framed(settings: MachineSettings, family: Family[Any], params: Parameters) -
         settings.margin * drive.rms,
         drive.speed * 60 / math.tau,
     )
+    found = _around(settings, family, params, mounting, parts, wanted)
+    return replace(found, reverses=drive.reverses)
+
+
+def _around(
+    settings: MachineSettings,
+    family: Family[Any],
+    params: Parameters,
+    mounting: Mounting | GroundPlate | Flange,
+    parts: Sequence[Part],
+    wanted: Wanted,
+) -> Surroundings:
+    """By what the family says of its shafts."""
     motion = family.solve(params, LOOKS)
     if isinstance(mounting, Flange):
         return on_flange(settings, mounting, motion, wanted)

@@ -9,6 +9,9 @@ from mechwright.contracts.bought import Bought
 from mechwright.contracts.fits import Fit, shaft_fit
 from mechwright.contracts.shape import Prism, Revolve, Shape, box, ring
 from mechwright.errors import DesignError, did_you_mean
+from mechwright.standards.ordering import UNIFIED
+from mechwright.standards.screws import FRAME
+from mechwright.standards.stock import AS_THICK, INCH, InchSize
 from mechwright.standards.table import table
 
 NOMINAL_VOLTAGE = 12.0
@@ -47,6 +50,22 @@ class MotorFace:
     def fits(self) -> tuple[Fit, ...]:
         """Limits of shaft and pilot: those of makers' sheets, by the nearest classes; unchecked."""
         return shaft_fit(self.shaft, "h7"), shaft_fit(self.pilot, "h9" if self.round else "h8")
+
+    @property
+    def inch(self) -> str:
+        """Shaft and screws where sizes are in inches: both are sold everywhere as they are.
+
+        >>> motor_face("NEMA 23").inch
+        'shaft 1/4 in, screws #10-32 through its flange'
+        >>> motor_face("NEMA 17").inch
+        'shaft 5 mm (0.197 in), screws M3 in its face'
+        """
+        quarter = InchSize("1/4")
+        exact = abs(self.shaft - quarter.size) < AS_THICK
+        shaft = f"{quarter.name} in" if exact else f"{self.shaft:g} mm ({self.shaft / INCH:.3f} in)"
+        if self.thread:
+            return f"shaft {shaft}, screws M{self.thread:g} in its face"
+        return f"shaft {shaft}, screws {UNIFIED[FRAME]} through its flange"
 
     def shape(self, length: float) -> Shape:
         """Body of that length, pilot and shaft as one solid."""
@@ -90,7 +109,9 @@ class Stepper:
     def bought(self) -> Bought:
         """How it is ordered."""
         words = f"stepper {self.name} mm, {self.hold:g} N m, 1.8°"
-        return Bought(words, "NEMA ICS 16", self.mass, self.face.shape(self.length), fits=self.face.fits)
+        face = self.face
+        shape = face.shape(self.length)
+        return Bought(words, "NEMA ICS 16", self.mass, shape, fits=face.fits, inch=face.inch)
 
 
 @dataclass(frozen=True)
@@ -153,7 +174,8 @@ class GearMotor:
         """How it is ordered."""
         words = f"gear motor 37D, {NOMINAL_VOLTAGE:g} V, {self.ratio:g}:1, {self.no_load:g} rev/min"
         note = "no standard fixes its face; compare with the maker's sheet"
-        return Bought(words, "", self.mass, self.face.shape(self.length), note, fits=self.face.fits)
+        shape, inch = self.face.shape(self.length), f"the same motor; {self.face.inch}"
+        return Bought(words, "", self.mass, shape, note, fits=self.face.fits, inch=inch)
 
 
 def steppers() -> tuple[Stepper, ...]:

@@ -59,11 +59,12 @@ def order_of(what: Bought) -> Order:
     """
     kind = kinds().get(what.standard)
     if kind is None:
-        return Order(what.designation)
+        return Order(what.designation, inch=what.inch)
     match = _SCREW.fullmatch(what.designation)
     if match is None:
         name = what.designation.replace(" - ", " ")
-        return Order(f"{kind.words} {name}".strip(), kind.grade, kind.finish, kind.american)
+        inch = "; ".join(one for one in (kind.american, what.inch) if one)
+        return Order(f"{kind.words} {name}".strip(), kind.grade, kind.finish, inch)
     size, length, grade = float(match[1]), float(match[2]), match[3]
     text = f"{kind.words} {kind.standard} M{size:g} x {length:g}, class {grade}"
     inch = f"{kind.american} of the same size"

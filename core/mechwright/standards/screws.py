@@ -6,6 +6,7 @@ from functools import cache
 from typing import Literal
 
 from mechwright.contracts.bought import Bought
+from mechwright.contracts.materials import entry
 from mechwright.contracts.shape import Revolve, Shape, hexagon, ring
 from mechwright.contracts.threads import COARSE
 from mechwright.errors import DesignError
@@ -24,8 +25,21 @@ GRADE = "8.8"
 SET_GRADE = "45H"
 """Hardness class of set screws."""
 
-ENGAGEMENT = {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+ENGAGEMENT = {
+    "steel": 1.0, "brass": 1.3, "aluminium": 1.5, "5754": 2.0, "5083": 2.0, "pom": 2.5, "polycarbonate": 2.5,
+}  # fmt: skip
 """Least length of thread in a material, in diameters; handbook, unchecked. In POM an insert is better."""
+
+
+def least_engaged(name: str) -> float:
+    """Least length of thread in a material, in diameters.
+
+    >>> least_engaged("7075"), least_engaged("5754")
+    (1.5, 2.0)
+    """
+    found = entry(ENGAGEMENT, name)
+    assert found is not None  # noqa: S101 - every group has one
+    return found
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
-from mechwright.contracts.materials import material
+from mechwright.contracts.materials import entry
 from mechwright.errors import DesignError
 from mechwright.standards.table import table
 
@@ -65,13 +65,17 @@ class BarStock:
 @cache
 def plate_stock(name: str) -> PlateStock:
     """Plates of a material; raises DesignError for one that the tables do not have."""
-    return next(one for one in table("plates").of(PlateStock) if one.material == material(name).name)
+    found = entry({one.material: one for one in table("plates").of(PlateStock)}, name)
+    assert found is not None  # noqa: S101 - every group has some
+    return found
 
 
 @cache
 def bar_stock(name: str) -> BarStock:
     """Round bars of a material; raises DesignError for one that the tables do not have."""
-    return next(one for one in table("round-bars").of(BarStock) if one.material == material(name).name)
+    found = entry({one.material: one for one in table("round-bars").of(BarStock)}, name)
+    assert found is not None  # noqa: S101 - every group has some
+    return found
 
 
 def is_sold(thickness: float, name: str) -> bool:

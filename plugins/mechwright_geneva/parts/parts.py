@@ -119,11 +119,16 @@ def parts_of(params: GenevaParams) -> tuple[Part, ...]:
     return (*_wheel(m), *_driver(m), _roller(m))
 
 
-ARMS = (
-    "Each roller's hole stands over the middle of a hollow of the locking disc; when the driver goes on, a "
-    "slot of the wheel faces the roller. Which slot is no matter: they are alike."
+ARMS = FittingMark(
+    "Turn the crank on the locking disc until each roller's hole stands over the middle of a hollow of it.",
+    joins=True,
 )
-"""How the crank stands to the locking disc and to the wheel."""
+"""How the crank stands to the locking disc."""
+
+FACING = FittingMark(
+    "As the driver goes on, a slot of the wheel faces the roller. Which slot is no matter: they are alike."
+)
+"""How the crank stands to the wheel."""
 
 
 def _wheel(m: Mechanism) -> list[Part]:
@@ -222,7 +227,7 @@ def _driver(m: Mechanism) -> list[Part]:
         for k, pin in enumerate(pins(m), start=1)
     ]
     crank = _plate(m, "crank", crank_loop(m), 0.0, opening, dowels, thickness, DRIVER, top, BLUE, bores)
-    return [disc, replace(crank, marks=(FittingMark(ARMS),))]
+    return [disc, replace(crank, marks=(ARMS, FACING))]
 
 
 def _roller(m: Mechanism) -> Part:

@@ -12,11 +12,11 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from mechwright.contracts.materials import MATERIALS
+from mechwright.contracts.materials import GROUPS
 from mechwright_cam.shop.formats.contract import LONGEST, ToolRecord, number
 from mechwright_cam.shop.tool import CuttingData, Tool, ToolKind
 
-WORDS = {name: name for name in MATERIALS} | {
+WORDS = {name: name for name in GROUPS} | {
     "aluminum": "aluminium",
     "acetal": "pom",
     "delrin": "pom",
@@ -70,7 +70,7 @@ def _materials(preset: Mapping[str, Any]) -> set[str]:
 def _unclear(materials: set[str]) -> str:
     if materials:
         return f"names {' and '.join(sorted(materials))}; make a preset for each"
-    return f"names no material; put one of {', '.join(MATERIALS)} into its name"
+    return f"names no material; put one of {', '.join(GROUPS)} into its name"
 
 
 def _cutting(said: ToolRecord, preset: Mapping[str, Any], scale: float) -> tuple[dict[str, float], str]:

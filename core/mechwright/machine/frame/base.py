@@ -17,6 +17,7 @@ from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Standing
 from mechwright.mechanics.strength.allowed import allowed
 from mechwright.mechanics.strength.tightening import bond_torque
+from mechwright.standards.ordering import UNIFIED, inch_length
 from mechwright.standards.screws import needs_washer, screw, through_hole, washer
 from mechwright.standards.stock import plate_stock
 
@@ -56,6 +57,7 @@ def foot() -> Bought:
         shape,
         "no standard fixes it; compare with the maker's sheet",
         (thread,),
+        inch=f"rubber bumper {inch_length(wide)} x {inch_length(high)} in, thread {UNIFIED[SCREW]} inside",
     )
 
 

@@ -19,6 +19,7 @@ from mechwright.machine.frame.free import in_the_way
 from mechwright.machine.frame.guard import add_guard, widened
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.located import add_retainer, height_over
 from mechwright.machine.frame.overload import overloaded
 from mechwright.machine.frame.pillars import (
     EDGE,
@@ -39,12 +40,14 @@ from mechwright.machine.frame.plates import (
     add_plate,
     bearing_hole,
     least_thickness,
+    retainer_holes,
+    seat_depth,
     thickness_for,
 )
 from mechwright.machine.frame.play import coupling_stack, shaft_stacks
 from mechwright.machine.frame.posts import add_post, post_disc, post_faults, post_hole
-from mechwright.machine.frame.seats import Seat, bores, candidates, seats, wall
-from mechwright.machine.frame.shafts import Levels, add_shaft, highest, lowest
+from mechwright.machine.frame.seats import Seat, bores, candidates, plate_radius, seats
+from mechwright.machine.frame.shafts import AxialLocation, Levels, add_shaft, highest, lowest
 from mechwright.machine.frame.slideways import add_slideway, floor_of, rail_discs, rail_holes, region_of
 from mechwright.machine.frame.standing import CLEARANCE, Disc, stand
 from mechwright.machine.frame.sweep import Space, space_of
@@ -87,10 +90,9 @@ def decided(
     chosen, faults = seats(mounting, keys)
     if faults:
         return faults
-    bearings = [seat.bearing for seat in chosen]
-    thickness = keys.plate_thickness or thickness_for(bearings, keys.plate_material, keys.plates)
-    if thickness < least_thickness(bearings):
-        least = plate_for(least_thickness(bearings), keys.plate_material, keys.plates)
+    thickness = keys.plate_thickness or thickness_for(chosen, keys.plate_material, keys.plates)
+    if thickness < least_thickness(chosen):
+        least = plate_for(least_thickness(chosen), keys.plate_material, keys.plates)
         return [_too_thin(thickness, least)]
     space = space_of(parts, motion)
     levels = levels_of(space, chosen, keys, thickness, mounting)
@@ -99,10 +101,7 @@ def decided(
     if faults:
         return faults
     held = [
-        Disc(seat.spindle.point, seat.bearing.outside / 2 + wall(seat.bearing.outside, keys.plate_material))
-        for seat in chosen
-    ]
-    held += [
+        *(Disc(seat.spindle.point, plate_radius(seat, keys.plate_material)) for seat in chosen),
         *map(post_disc, mounting.posts),
         *(disc for way in mounting.slideways for disc in rail_discs(way)),
     ]
@@ -115,7 +114,11 @@ def decided(
         try:
             bracket = bracket_for(
                 wanted.motor,
-                (driver.spindle.point, driver.bearing.bore, driver.bearing.width),
+                (
+                    driver.spindle.point,
+                    driver.bearing.bore,
+                    seat_depth(driver, upper=False),
+                ),
                 (levels.lower, levels.lower - thickness),
                 wanted.torque,
                 held,
@@ -152,7 +155,9 @@ def levels_of(
 
     The lower one is that on which linear guides lie. Raises DesignError where these are too low for the rest.
     """
-    lower = min(space.low - keys.axial_gap, *(lowest(seat) for seat in chosen))
+    located = [seat.bearing for seat in chosen if seat.located]
+    over = height_over(located) if located else 0.0
+    lower = min(space.low - keys.axial_gap - over, *(lowest(seat) for seat in chosen))
     upper = max(space.high + keys.axial_gap, *(highest(seat) for seat in chosen))
     if mounting.slideways:
         lower = floor_of(mounting.slideways, lower)
@@ -182,7 +187,7 @@ def _no_coupling(driver: Seat, keys: FrameKeys, said: str) -> Finding:
 
 
 def _bearing_bore(bore: float, keys: FrameKeys) -> float:
-    found = candidates(bore, keys.bearing)
+    found = candidates(bore, keys.bearing, keys.bearing_arrangement)
     return found[0].bore if found else 0.0
 
 
@@ -205,8 +210,9 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     kit = Kit()
     levels, thickness, standing, bracket = frame.levels, frame.thickness, frame.standing, frame.bracket
     corners = columns(standing.corners)
-    lower = [bearing_hole(seat, thickness) for seat in frame.seats]
-    upper = list(lower)
+    lower = [bearing_hole(seat, thickness, upper=False) for seat in frame.seats]
+    lower += [hole for seat in frame.seats for hole in retainer_holes(seat, thickness)]
+    upper = [bearing_hole(seat, thickness, upper=True) for seat in frame.seats]
     for column in corners:
         column.place(kit)
         hole = register(column.name, column.point, thickness, spigot=column.spigot)
@@ -230,6 +236,9 @@ def built(frame: Frame, keys: FrameKeys) -> Kit:
     if keys.guard:
         add_guard(kit, standing, levels)
     for seat in frame.seats:
+        if seat.located:
+            point, name = seat.spindle.point, seat.spindle.name
+            add_retainer(kit, seat.bearing, name, point, levels.lower, "lower-plate")
         shaft = add_shaft(kit, seat, levels, _stub(frame) if seat.spindle.drives else None)
         kit.stacks += shaft_stacks(seat, shaft, levels)
     _add_columns(kit, frame, keys, corners)
@@ -244,9 +253,9 @@ def _stub(frame: Frame) -> tuple[float, float]:
     """Diameter and length of the input's shaft below its bearing, mm."""
     if frame.bracket is not None:
         return frame.bracket.stub
-    bearing = frame.driver.bearing
+    bearing, depth = frame.driver.bearing, seat_depth(frame.driver, upper=False)
     diameter = bearing.bore - 1.0 if bearing.bore > 4 else bearing.bore
-    return diameter, frame.thickness - bearing.width + STUB * bearing.bore
+    return diameter, frame.thickness - depth + STUB * bearing.bore
 
 
 def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column]) -> None:
@@ -270,6 +279,6 @@ def _add_columns(kit: Kit, frame: Frame, keys: FrameKeys, posts: Sequence[Column
     if based:
         bracket = frame.bracket
         stub = _stub(frame)
-        lowest_point = bracket.low if bracket else levels.lower - frame.driver.bearing.width - stub[1]
+        lowest_point = bracket.low if bracket else AxialLocation.of(frame.driver, levels).foot(stub)
         top, material = lowest_point - UNDER, keys.plate_material
         add_base(kit, frame.standing, list(posts), frame.under, top, below, material, keys.plates)

@@ -11,7 +11,7 @@ from mechwright.contracts.finding import Change, Finding, Stage
 from mechwright.contracts.mounting import Spindle
 from mechwright.machine.frame.decided import Frame, Wanted
 from mechwright.machine.frame.seats import Seat
-from mechwright.machine.frame.shafts import Levels, key_of, sections
+from mechwright.machine.frame.shafts import AxialLocation, Levels, key_of, sections
 from mechwright.mechanics.strength.allowed import REVERSING_KEY, allowed
 from mechwright.mechanics.strength.beam import BALL_SLOPE, SteppedShaft
 from mechwright.mechanics.strength.bearings_life import STATIC_SAFETY, life, static_load
@@ -64,12 +64,14 @@ def bent(seat: Seat, levels: Levels, force: float) -> tuple[float, float, float,
 
     The force acts in the middle of the hub.
     """
-    steps, bearing, hub = sections(seat, levels), seat.bearing, seat.spindle.hub
-    length = sum(step.length for step in steps)
+    steps, held, hub = sections(seat, levels), AxialLocation.of(seat, levels), seat.spindle.hub
+    foot, half = held.foot(None), seat.bearing.width / 2
     shaft = SteppedShaft(
-        tuple((step.diameter, step.length) for step in steps), bearing.width / 2, length - bearing.width / 2
+        tuple((step.diameter, step.length) for step in steps),
+        held.lower - foot + half,
+        held.upper - foot + half,
     )
-    at = (hub.low + hub.high) / 2 - levels.lower + bearing.width
+    at = (hub.low + hub.high) / 2 - foot
     loads = [(at, force)]
     near, far = shaft.reactions(loads)
     slope = max(abs(shaft.slope(loads, shaft.near)), abs(shaft.slope(loads, shaft.far)))

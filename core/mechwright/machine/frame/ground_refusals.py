@@ -32,7 +32,7 @@ from mechwright.machine.frame.sweep import Space, Swept
 from mechwright.standards.couplings import BORES, Coupling, OverloadError, coupling_for
 from mechwright.standards.screws import lengths, needs_washer, screw_size, through_hole, washer
 
-WITHOUT = ("bearing", "plate_thickness", "cover", "guard")
+WITHOUT = ("bearing", "bearing_arrangement", "plate_thickness", "cover", "guard")
 """Keys of bearing plates, of which there are none here."""
 
 _TOUCH = 1e-6

@@ -10,6 +10,7 @@ from mechwright.units import Millimetres, Unit
 
 FrameName = Literal["none", "plate", "plates", "base"]
 BearingSeries = Literal["auto", "62", "60", "619", "618"]
+Arrangement = Literal["floating", "locating-free"]
 
 
 class FrameKeys(Parameters):
@@ -27,6 +28,13 @@ class FrameKeys(Parameters):
         "auto",
         description=(
             "Series of the ball bearings: 62 is the heaviest, 618 the thinnest; auto: the first that fits."
+        ),
+    )
+    bearing_arrangement: Arrangement = Field(
+        "floating",
+        description=(
+            "How two bearing plates hold a shaft along its axis. floating: each bearing holds it one way; "
+            "locating-free: the lower bearing holds it both ways, and the outer ring of the upper one slides."
         ),
     )
     plate_thickness: Annotated[float, Field(ge=4, le=60), Unit("mm")] | None = Field(

@@ -11,10 +11,16 @@ from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.located import (
+    FREE,
+    RETAINER_THREAD,
+    SCREW,
+    proud,
+    retainer_places,
+)
 from mechwright.machine.frame.seats import Seat
 from mechwright.machine.frame.standing import Standing
 from mechwright.mechanics.linkage import Boss, rectangle
-from mechwright.standards.bearings import Bearing
 from mechwright.standards.stock import plate_for
 
 FLOOR = 2.5
@@ -30,14 +36,25 @@ LEAST = 10.0
 """Least thickness of a bearing plate, mm: room for a counterbored screw."""
 
 
-def least_thickness(bearings: Sequence[Bearing]) -> float:
-    """Of a plate that has these bearings, mm."""
-    return max(bearing.width for bearing in bearings) + FLOOR
+def least_thickness(seats: Sequence[Seat]) -> float:
+    """Of a plate that has these bearings, mm: of a pair of plates, the one with the deeper seats."""
+    return max(seat_depth(seat, upper=True) for seat in seats) + FLOOR
 
 
-def thickness_for(bearings: Sequence[Bearing], material: str, in_hand: Sequence[float] = ()) -> float:
+def thickness_for(seats: Sequence[Seat], material: str, in_hand: Sequence[float] = ()) -> float:
     """The thickness of a plate that has these bearings, mm, as it is sold or in hand."""
-    return plate_for(max(LEAST, least_thickness(bearings)), material, in_hand)
+    return plate_for(max(LEAST, least_thickness(seats)), material, in_hand)
+
+
+def seat_depth(seat: Seat, *, upper: bool) -> float:
+    """Depth of the seat of one of a shaft's bearings, mm.
+
+    A locating bearing stands out of its seat, a free one has room on both sides.
+    """
+    width = seat.bearing.width
+    if not seat.located:
+        return width
+    return round(width + 2 * FREE if upper else width - proud(seat.bearing), 6)
 
 
 @dataclass(frozen=True)
@@ -68,19 +85,30 @@ class Hole:
         return found[::-1]
 
 
-def bearing_hole(seat: Seat, thickness: float) -> Hole:
+def bearing_hole(seat: Seat, thickness: float, *, upper: bool) -> Hole:
     """The bore of a bearing with its shoulder; through the shoulder goes what the outer ring leaves free."""
     bearing = seat.bearing
     return Hole(
         f"bearing-{seat.spindle.name}",
         seat.spindle.point,
         (
-            (bearing.outside, 0.0, bearing.width),
+            (bearing.outside, 0.0, seat_depth(seat, upper=upper)),
             (bearing.abutment, 0.0, thickness),
         ),
         fit="H7",
         depth_limits=SEAT_DEPTH,
     )
+
+
+def retainer_holes(seat: Seat, thickness: float) -> list[Hole]:
+    """Of the screws of a locating bearing's retainer in its plate; none for a floating one."""
+    if not seat.located:
+        return []
+    deep, (x, y) = min(RETAINER_THREAD, thickness), seat.spindle.point
+    return [
+        Hole(f"retainer-{seat.spindle.name}-{k}", (x + a, y + b), ((SCREW, 0.0, deep),))
+        for k, (a, b) in enumerate(retainer_places(seat.bearing), start=1)
+    ]
 
 
 def mirrored(hole: Hole) -> Hole:

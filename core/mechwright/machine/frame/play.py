@@ -2,14 +2,15 @@
 
 from collections.abc import Iterator
 
-from mechwright.contracts.axial_stack import AxialStack, Shimming, StackLength
+from mechwright.contracts.axial_stack import AxialStack, StackLength
 from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.turned import Turned
 from mechwright.machine.frame.bracket import BRACKET_HEIGHT, HEIGHT, Bracket
 from mechwright.machine.frame.coupled import PLATE
+from mechwright.machine.frame.located_play import located_stacks
 from mechwright.machine.frame.pillars import BETWEEN
 from mechwright.machine.frame.pillars import HEIGHT as PILLAR_HEIGHT
-from mechwright.machine.frame.plates import SEAT_DEPTH
+from mechwright.machine.frame.plates import SEAT_DEPTH, seat_depth
 from mechwright.machine.frame.seats import Seat
 from mechwright.machine.frame.shafts import (
     COLLAR_EDGE,
@@ -20,7 +21,7 @@ from mechwright.machine.frame.shafts import (
     hub_room,
     ring_of,
 )
-from mechwright.standards.shims import THICKNESSES, Shim
+from mechwright.machine.frame.shim_rings import shimming
 
 FLOAT, RATTLE = (0.1, 0.31), 0.55
 """Play of a shaft between its bearings, mm, and the greatest without shim rings: it never binds."""
@@ -46,7 +47,10 @@ FLOATS = 0.1
 
 def shaft_stacks(seat: Seat, shaft: Turned, levels: Levels) -> Iterator[AxialStack]:
     """The float of a shaft between its bearings, and the play of its hub."""
-    yield _float(seat, shaft, levels)
+    if seat.located:
+        yield from located_stacks(seat, shaft, levels)
+    else:
+        yield _float(seat, shaft, levels)
     yield _hub(seat, shaft)
 
 
@@ -71,7 +75,7 @@ def _float(seat: Seat, shaft: Turned, levels: Levels) -> AxialStack:
         lengths,
         0.0 if ring is None else FLOAT[0],
         RATTLE if ring is None else FLOAT[1],
-        None if ring is None else _shimming(ring, RING, where, LEFT),
+        None if ring is None else shimming(ring, RING, where, LEFT),
         COLLAR_EDGE,
     )
 
@@ -79,9 +83,10 @@ def _float(seat: Seat, shaft: Turned, levels: Levels) -> AxialStack:
 def _hub(seat: Seat, shaft: Turned) -> AxialStack:
     hub, circlip, name = seat.spindle.hub, seat.circlip, f"shaft-{seat.spindle.name}"
     ring, where = hub_ring(seat), "between the hub and its circlip"
+    copy = (f"spindle-{seat.spindle.name}", hub.high + hub_room(seat))
     lengths = (
         StackLength.of(shaft.length_of(LOADED_WALL), 1, name),
-        StackLength("circlip", -1, circlip.thickness, -circlip.thinner, 0.0, True, circlip.part_name),
+        StackLength("circlip", -1, circlip.thickness, -circlip.thinner, 0.0, True, circlip.part_name, copy),
         *(
             StackLength(f"hub{f', part {count}' if hub.pieces else ''}, ISO 2768-m", -1, one, -off, off)
             for count, one in enumerate(hub.stacked, start=1)
@@ -93,13 +98,10 @@ def _hub(seat: Seat, shaft: Turned) -> AxialStack:
         lengths,
         0.0,
         HUB_RATTLE if ring is None else HUB_PLAY,
-        None if ring is None else _shimming(ring, hub_room(seat), where, HUB_LEFT),
+        None if ring is None else shimming(ring, hub_room(seat), where, HUB_LEFT),
         LOADED_WALL,
+        hub_on=name,
     )
-
-
-def _shimming(ring: Shim, drawn: float, where: str, least: float) -> Shimming:
-    return Shimming(ring.designation, THICKNESSES, where, least, part=ring.part_name(drawn))
 
 
 def coupling_stack(bracket: Bracket, seat: Seat, inner: float, thickness: float) -> AxialStack:
@@ -109,7 +111,7 @@ def coupling_stack(bracket: Bracket, seat: Seat, inner: float, thickness: float)
     """
     height = inner - thickness - bracket.top
     general = (
-        ("floor under the lower bearing", 1, thickness - seat.bearing.width, "lower-plate"),
+        ("floor under the lower bearing", 1, thickness - seat_depth(seat, upper=False), "lower-plate"),
         (STUB, -1, bracket.stub[1], f"shaft-{seat.spindle.name}"),
         ("motor plate", 1, PLATE, "motor-plate"),
     )
@@ -136,4 +138,5 @@ def coupling_stack(bracket: Bracket, seat: Seat, inner: float, thickness: float)
         ),
         APART,
         adjustable=STUB,
+        measurable=False,
     )

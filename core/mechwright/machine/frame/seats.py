@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from mechwright.contracts.finding import Change, Finding
+from mechwright.contracts.materials import entry
 from mechwright.contracts.mounting import Mounting, Spindle
 from mechwright.machine.frame.fault import fault
-from mechwright.machine.frame.keys import FrameKeys
+from mechwright.machine.frame.keys import Arrangement, FrameKeys
+from mechwright.machine.frame.located import APART, has_room, retainer_diameter
 from mechwright.standards.bearings import Bearing, bearings
 from mechwright.standards.circlips import Circlip, shaft_circlips
 
@@ -32,11 +34,17 @@ class Seat:
     spindle: Spindle
     bearing: Bearing
     circlip: Circlip
+    arrangement: Arrangement = "floating"
+
+    @property
+    def located(self) -> bool:
+        """Whether the lower bearing holds the shaft both ways, and the upper one is free."""
+        return self.arrangement == "locating-free"
 
 
 def wall(outside: float, material: str) -> float:
     """Around a bearing's outside, mm."""
-    return max(LEAST_WALL, WALL.get(material, 0.2) * outside)
+    return max(LEAST_WALL, (entry(WALL, material) or 0.2) * outside)
 
 
 def circlip_over(bore: float) -> Circlip | None:
@@ -45,14 +53,15 @@ def circlip_over(bore: float) -> Circlip | None:
     return fitting[-1] if fitting else None
 
 
-def candidates(bore: float, series: str) -> list[Bearing]:
+def candidates(bore: float, series: str, arrangement: Arrangement = "floating") -> list[Bearing]:
     """What can carry the shaft of a hub of this bore, mm, best first; at most one of each series."""
+    able = [one for one in bearings() if arrangement == "floating" or has_room(one)]
     ring = circlip_over(bore)
     if ring is None:
         return []
     found = []
     for name in ORDER if series == "auto" else (series,):
-        fitting = [one for one in bearings() if one.series == name and one.shoulder <= ring.size]
+        fitting = [one for one in able if one.series == name and one.shoulder <= ring.size]
         if fitting:
             found.append(fitting[-1])
     widest = max((one.bore for one in found), default=0.0)
@@ -62,34 +71,48 @@ def candidates(bore: float, series: str) -> list[Bearing]:
 
 def seats(mounting: Mounting, keys: FrameKeys) -> tuple[list[Seat], list[Finding]]:
     """The bearings of all spindles, or findings that say why there are none."""
-    choice = {one.name: candidates(one.hub.bore, keys.bearing) for one in mounting.spindles}
+    way = keys.bearing_arrangement
+    choice = {one.name: candidates(one.hub.bore, keys.bearing, way) for one in mounting.spindles}
     lacking = [one for one in mounting.spindles if not choice[one.name]]
     if lacking:
         return [], [_no_bearing(one, keys) for one in lacking]
-    clash = _thinned(mounting, choice, keys.plate_material)
+    clash = _thinned(mounting, choice, keys)
     if clash is not None:
         return [], [_too_near(mounting, keys, *clash)]
     found = []
     for one in mounting.spindles:
         ring = circlip_over(one.hub.bore)
         assert ring is not None  # noqa: S101 - without one there are no candidates
-        found.append(Seat(one, choice[one.name][0], ring))
+        found.append(Seat(one, choice[one.name][0], ring, way))
     return found, []
 
 
-def needed(one: Bearing, two: Bearing, material: str) -> float:
-    """Least distance of two axes, mm: half of both outsides, and the wall of the larger between them."""
-    return (one.outside + two.outside) / 2 + wall(max(one.outside, two.outside), material)
+def needed(one: Bearing, two: Bearing, material: str, arrangement: Arrangement = "floating") -> float:
+    """Least distance of two axes, mm: half of both outsides, and the wall of the larger between them.
+
+    Retainers of locating bearings keep apart as well.
+    """
+    least = (one.outside + two.outside) / 2 + wall(max(one.outside, two.outside), material)
+    if arrangement == "floating":
+        return least
+    return max(least, (retainer_diameter(one) + retainer_diameter(two)) / 2 + APART)
+
+
+def plate_radius(seat: Seat, material: str) -> float:
+    """Of what a plate keeps for a seat about its axis, mm: the bearing with its wall, or its retainer."""
+    least = seat.bearing.outside / 2 + wall(seat.bearing.outside, material)
+    return max(least, retainer_diameter(seat.bearing) / 2) if seat.located else least
 
 
 def _thinned(
-    mounting: Mounting, choice: dict[str, list[Bearing]], material: str
+    mounting: Mounting, choice: dict[str, list[Bearing]], keys: FrameKeys
 ) -> tuple[Spindle, Spindle, Bearing, Bearing] | None:
     """Drop bearings that are too large until all have room; a pair that cannot, with its smallest ones."""
+    material, way = keys.plate_material, keys.bearing_arrangement
     while True:
         for one, two in combinations(mounting.spindles, 2):
             pair = choice[one.name][0], choice[two.name][0]
-            if needed(*pair, material) <= math.dist(one.point, two.point):
+            if needed(*pair, material, way) <= math.dist(one.point, two.point):
                 continue
             for spindle in sorted((one, two), key=lambda s: -choice[s.name][0].outside):
                 now = choice[spindle.name][0].outside
@@ -106,10 +129,10 @@ def _thinned(
 
 def _no_bearing(spindle: Spindle, keys: FrameKeys) -> Finding:
     bore = spindle.hub.bore
-    able = [b for b in bores() if candidates(b, keys.bearing)]
+    able = [b for b in bores() if candidates(b, keys.bearing, keys.bearing_arrangement)]
     near = min(able, key=lambda b: (abs(b - bore), b), default=None)
     series = "" if keys.bearing == "auto" else f" of series {keys.bearing}"
-    if keys.bearing != "auto" and candidates(bore, "auto"):
+    if keys.bearing != "auto" and candidates(bore, "auto", keys.bearing_arrangement):
         return fault(
             "frame.bearing",
             "machine.bearing",
@@ -134,16 +157,19 @@ def _too_near(
     mounting: Mounting, keys: FrameKeys, one: Spindle, two: Spindle, first: Bearing, second: Bearing
 ) -> Finding:
     """What two axes leave for bearings, and what fits: another series, thinner shafts, more distance."""
-    distance, material = math.dist(one.point, two.point), keys.plate_material
-    between = wall(max(first.outside, second.outside), material)
-    most = 2 * (distance - between) - first.outside
+    distance = math.dist(one.point, two.point)
+    least = needed(first, second, keys.plate_material, keys.bearing_arrangement)
+    most = second.outside - 2 * (least - distance)
+    between = "the wall" if keys.bearing_arrangement == "floating" else "retainers"
     said = (
         f"the axes of {one.name} and {two.name} stand {distance:.2f} mm apart; bearings {first.name} and "
         f"{second.name}, {first.outside:g} and {second.outside:g} mm outside, need "
-        f"{needed(first, second, material):.2f} mm with the wall between them: beside the {first.name} there "
-        f"is room for {max(most, 0):.1f} mm"
+        f"{least:.2f} mm with {between} between them: beside the {first.name} there is room for "
+        f"{max(most, 0):.1f} mm"
     )
     proposed: list[Change] = []
+    if keys.bearing_arrangement != "floating":
+        proposed.append({"machine.bearing_arrangement": "floating"})
     if keys.bearing != "auto":
         proposed.append({"machine.bearing": "auto"})
     smaller: list[Change] = [
@@ -160,15 +186,16 @@ def _too_near(
         "machine.bearing",
         said,
         distance,
-        needed(first, second, material),
+        least,
         remedy,
         tuple(proposed),
     )
 
 
 def _room(one: float, two: float, keys: FrameKeys, distance: float) -> bool:
-    first, second = candidates(one, "auto"), candidates(two, "auto")
-    return any(needed(a, b, keys.plate_material) <= distance for a in first for b in second)
+    way = keys.bearing_arrangement
+    first, second = candidates(one, "auto", way), candidates(two, "auto", way)
+    return any(needed(a, b, keys.plate_material, way) <= distance for a in first for b in second)
 
 
 def bores() -> list[float]:

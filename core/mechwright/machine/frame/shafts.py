@@ -16,9 +16,19 @@ from mechwright.contracts.surroundings import Place, turned
 from mechwright.contracts.turned import Groove, KeySeat, Length, Step, Turned
 from mechwright.geometry.keyway import key_of_width
 from mechwright.machine.frame.kit import Kit
+from mechwright.machine.frame.located import (
+    FREE,
+    RETAINER,
+    WALL,
+    drawn_ring,
+    overhang,
+    proud,
+    with_bearing_circlips,
+)
 from mechwright.machine.frame.seats import Seat
+from mechwright.machine.frame.shim_rings import add_shim
 from mechwright.standards.keys import LENGTHS, RANGES, Key
-from mechwright.standards.shims import THICKNESSES, Shim, shim_behind, shim_on
+from mechwright.standards.shims import Shim, shim_behind, shim_on
 
 PLAY = 0.15
 """Nominal play of a shaft between its bearings with their shim ring, mm: tolerances take half of it."""
@@ -26,8 +36,8 @@ PLAY = 0.15
 RING = 0.2
 """Thickness of the shim ring behind the upper bearing for which a frame is drawn, mm."""
 
-SHOULDERS, WALL = (-0.05, 0.0), (0.0, 0.1)
-"""Limits of the length between the shoulders, and from the collar to the loaded wall of the groove, mm."""
+SHOULDERS = (-0.05, 0.0)
+"""Limit deviations of the length between the shoulders, mm."""
 
 COLLAR_EDGE, LOADED_WALL = "shoulder to shoulder", "collar to the loaded wall of the groove"
 """Names of these lengths."""
@@ -61,6 +71,41 @@ class Levels:
         return self.upper - self.lower
 
 
+@dataclass(frozen=True)
+class AxialLocation:
+    """Where a shaft is held along its axis, mm.
+
+    Parameters
+    ----------
+    lower, upper
+        Heights of the undersides of both bearings.
+    shoulders
+        Heights of both shoulders of the shaft.
+    ends
+        By how much the shaft goes on below its lower bearing and above its upper one for circlips.
+    """
+
+    lower: float
+    upper: float
+    shoulders: tuple[float, float]
+    ends: tuple[float, float] = (0.0, 0.0)
+
+    @classmethod
+    def of(cls, seat: Seat, levels: Levels) -> "AxialLocation":
+        """By the arrangement of the bearings of a seat."""
+        bearing = seat.bearing
+        if not seat.located:
+            upper = levels.upper - ring_room(seat)
+            return cls(levels.lower - bearing.width, upper, (levels.lower, upper - PLAY))
+        low, upper = levels.lower + proud(bearing), levels.upper + FREE
+        ends = (overhang(bearing, drawn_ring(bearing)), overhang(bearing, 0.0))
+        return cls(low - bearing.width, upper, (low, upper), ends)
+
+    def foot(self, stub: tuple[float, float] | None) -> float:
+        """Height of the lower end of a shaft with a stub below its lower bearing, mm."""
+        return self.lower - (stub[1] if stub else self.ends[0])
+
+
 def ring_of(seat: Seat) -> Shim | None:
     """The shim ring behind the upper bearing of a shaft; None where none is sold."""
     return shim_behind(seat.bearing.bore, seat.bearing.outside)
@@ -85,16 +130,22 @@ def hub_room(seat: Seat) -> float:
     return round(sum(general_length(one, "medium") for one in seat.spindle.hub.stacked), 6)
 
 
+def relief(seat: Seat) -> float:
+    """Length of the shoulder under the collar, mm: the collar keeps clear of a retainer."""
+    return RELIEF + RETAINER if seat.located else RELIEF
+
+
 def lowest(seat: Seat) -> float:
     """Greatest height of the lower plate's inner face, mm, that the hub's collar leaves."""
-    return seat.spindle.hub.low - RELIEF - LEAST_COLLAR
+    stands = proud(seat.bearing) if seat.located else 0.0
+    return seat.spindle.hub.low - stands - relief(seat) - LEAST_COLLAR
 
 
 def highest(seat: Seat) -> float:
     """Least height of the upper plate's inner face, mm, that the circlip leaves."""
     ring = seat.circlip
-    over = hub_room(seat) + ring.width + ring.edge + RELIEF + PLAY + ring_room(seat)
-    return seat.spindle.hub.high + over
+    over = hub_room(seat) + ring.width + ring.edge + RELIEF
+    return seat.spindle.hub.high + over + (0.0 if seat.located else PLAY + ring_room(seat))
 
 
 def collar(hub: Hub) -> float:
@@ -104,18 +155,18 @@ def collar(hub: Hub) -> float:
 
 def sections(seat: Seat, levels: Levels, stub: tuple[float, float] | None = None) -> list[Step]:
     """The steps from below; ``stub``: diameter and length, mm, below the lower bearing."""
-    hub, bearing, ring = seat.spindle.hub, seat.bearing, seat.circlip
-    journal = Step(bearing.bore, bearing.width, shaft_fit(bearing.bore, "j6"))
-    steps = [Step(stub[0], stub[1], shaft_fit(stub[0], "h6"))] if stub else []
+    hub, bearing, ring, held = seat.spindle.hub, seat.bearing, seat.circlip, AxialLocation.of(seat, levels)
+    (low, high), (below, above), fit = held.shoulders, held.ends, shaft_fit(bearing.bore, "j6")
+    steps = [Step(stub[0], stub[1] - below, shaft_fit(stub[0], "h6"))] if stub else []
     steps += [
-        journal,
-        Step(bearing.shoulder, RELIEF),
-        Step(collar(hub), hub.low - levels.lower - RELIEF),
+        Step(bearing.bore, bearing.width + below, fit),
+        Step(bearing.shoulder, relief(seat)),
+        Step(collar(hub), hub.low - low - relief(seat)),
         Step(hub.bore, hub.length - SHORT, shaft_fit(hub.bore, "h6")),
     ]
-    rest = levels.upper - ring_room(seat) - PLAY - (hub.high - SHORT)
+    rest = high - (hub.high - SHORT)
     steps += [Step(ring.size, rest - RELIEF), Step(min(bearing.shoulder, ring.size), RELIEF)]
-    return [*steps, Step(bearing.bore, bearing.width + PLAY, shaft_fit(bearing.bore, "j6"))]
+    return [*steps, Step(bearing.bore, bearing.width + (above if seat.located else PLAY), fit)]
 
 
 def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | None) -> Turned:
@@ -124,9 +175,11 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     body, axis = f"spindle-{spindle.name}", f"axis-{spindle.name}"
     kit.places[body] = Place((0.0, 0.0, -spindle.origin), turned(hub.key_angle), spindle.body)
     kit.places[axis] = Place((*spindle.point, 0.0))
-    foot = levels.lower - bearing.width - (stub[1] if stub else 0.0)
+    held = AxialLocation.of(seat, levels)
+    foot = held.foot(stub)
     over = hub.high + hub_room(seat)
     groove = Groove(over - foot, ring.width, ring.groove, ring.tolerance)
+    low, high = held.shoulders
     key = key_of(hub)
     seats: tuple[KeySeat, ...] = ()
     if key is not None:
@@ -134,14 +187,15 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
         seats = (KeySeat(at - foot, key.seat_length, hub.key, hub.bore / 2 - key.size.shaft_depth),)
         name = f"key-{hub.key:g}x{key.size.height:g}x{key.length:g}".replace(".", "_")
         kit.bought(name, key.bought(hub.bore), body, at)
-    upper = levels.upper - ring_room(seat)
     lengths = (
-        Length(COLLAR_EDGE, levels.lower - foot, upper - PLAY - foot, *SHOULDERS),
+        Length(COLLAR_EDGE, low - foot, high - foot, *SHOULDERS),
         Length(LOADED_WALL, hub.low - foot, over + ring.width - foot, *WALL),
     )
     shaft = Turned(
         _merged(sections(seat, levels, stub)), chamfer=BREAK, grooves=(groove,), seats=seats, lengths=lengths
     )
+    if seat.located:
+        shaft = with_bearing_circlips(kit, shaft, seat.bearing, body, (low, high), foot)
     # Above its seat the shaft is as thick as the circlip's size, and does not fill a larger bore.
     empty = SHORT if ring.size < hub.bore else 0.0
     kit.turned(f"shaft-{spindle.name}", shaft, body, foot, play=empty)
@@ -150,20 +204,12 @@ def add_shaft(kit: Kit, seat: Seat, levels: Levels, stub: tuple[float, float] | 
     if under is not None:
         add_shim(kit, under, hub_room(seat), body, hub.high, on_shaft=True)
     name = f"bearing-{bearing.name.replace('/', '_')}"
-    for z in (levels.lower - bearing.width, upper):
-        kit.bought(name, bearing.bought, axis, z)
-    behind = ring_of(seat)
+    for z in (held.lower, held.upper):
+        kit.bought(name, bearing.bought, axis, z, play=2 * FREE if seat.located else 0.0)
+    behind = None if seat.located else ring_of(seat)
     if behind is not None:
-        add_shim(kit, behind, RING, axis, upper + bearing.width, on_shaft=False)
+        add_shim(kit, behind, RING, axis, held.upper + bearing.width, on_shaft=False)
     return shaft
-
-
-def add_shim(kit: Kit, shim: Shim, thickness: float, body: str, z: float, *, on_shaft: bool) -> None:
-    """A shim ring of the thickness that is drawn, mm; what goes in is chosen after measuring."""
-    note = (
-        f"a set of {', '.join(f'{one:g}' for one in THICKNESSES)} mm: the play is measured, see stacks.html"
-    )
-    kit.bought(shim.part_name(thickness), shim.bought(thickness, note, on_shaft=on_shaft), body, z)
 
 
 def key_of(hub: Hub) -> Key | None:

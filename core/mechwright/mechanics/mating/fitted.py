@@ -13,19 +13,23 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.mechanics.mating.choice import Assembled, hole_fit_of, pin_fit
+from mechwright.mechanics.mating.key_seats import with_key_seats
 from mechwright.mechanics.mating.rounds import Match, Round
 
 Limits = dict[tuple[str, str], Fit]
 """Names of a part and of a face of it to the limits that it gets."""
 
 
-def with_fits(parts: Sequence[Part], motion: Motion, fits: Fits) -> list[Part]:
-    """The parts, each round face that another one touches with its limits.
+def with_fits(parts: Sequence[Part], motion: Motion, fits: Fits, reverses: bool = False) -> list[Part]:
+    """The parts, each round face that another one touches with its limits, and key seats with theirs.
+
+    ``reverses``: the torque of the drive changes its sense within a turn, see :mod:`.key_seats`.
 
     Pins come first: the limits of a hole follow from those that its pin has in the end. What a part says of
     itself stays, but for the pairs that the settings name. Of two pairs that share a face the looser one
     decides, so that both go together.
     """
+    parts = with_key_seats(parts, fits.settings, reverses=reverses)
     whole = Assembled(placed(parts, motion), motion)
     _check_pairs(whole, fits)
     pins = _loosest(_pins(whole, fits))

@@ -98,6 +98,14 @@ class Match:
         return h0 - d1, h1 - d0
 
     @property
+    def overlap(self) -> float:
+        """How far the pin is in the hole, mm."""
+        along = float((self.outside.at - self.inside.at) @ self.inside.axis)
+        sign = 1.0 if self.outside.axis @ self.inside.axis > 0 else -1.0
+        low, high = sorted((along + sign * self.outside.low, along + sign * self.outside.high))
+        return min(high, self.inside.high) - max(low, self.inside.low)
+
+    @property
     def missing_fits(self) -> int:
         """Of how many of both faces the drawing gives no limits."""
         return (self.outside.fit is None) + (self.inside.fit is None)
