@@ -58,25 +58,26 @@ def draw(sheet: Sheet, placed: Placed, sizes: Sequence[FormSize]) -> None:
     """The sizes that a view shows; each of a kind has a row of its own, so that none meets another."""
     mine = [size for size in sizes if shown_in(size) == placed.view]
     angles = sorted((one for one in mine if isinstance(one, AngleSize)), key=lambda one: one.degrees)
-    for row, one in enumerate(angles):
-        _angle(sheet, placed, one, row)
+    for row, angle in enumerate(angles):
+        _angle(sheet, placed, angle, row)
     radii = [one for one in mine if isinstance(one, RadiusSize)]
     greatest = max((one.radius for one in radii if not one.flat), default=0.0)
-    for row, one in enumerate(sorted((one for one in radii if one.flat), key=lambda one: one.radius)):
-        _distance(sheet, placed, one, row)
-    for one in radii:
-        if not one.flat:
-            _radius(sheet, placed, one, outside=one.radius >= greatest)
+    flat = sorted((one for one in radii if one.flat), key=lambda one: one.radius)
+    for row, distance in enumerate(flat):
+        _distance(sheet, placed, distance, row)
+    for radius in radii:
+        if not radius.flat:
+            _radius(sheet, placed, radius, outside=radius.radius >= greatest)
     _, y0, x1, _ = placed.box
     level, standing = 0, 0
     lengths = [one for one in mine if isinstance(one, LengthSize)]
-    for one in sorted(lengths, key=lambda one: math.dist(one.first, one.second)):
-        first, second = sorted((placed.at(one.first), placed.at(one.second)))
+    for size in sorted(lengths, key=lambda one: math.dist(one.first, one.second)):
+        first, second = sorted((placed.at(size.first), placed.at(size.second)))
         if abs(first[1] - second[1]) < abs(first[0] - second[0]):
-            length(sheet, first, second, y0 - FREE - ROW * level, one.text)
+            length(sheet, first, second, y0 - FREE - ROW * level, size.text)
             level += 1
         else:
-            upright(sheet, first, second, x1 + FREE + ROW * 2 * standing, one.text)
+            upright(sheet, first, second, x1 + FREE + ROW * 2 * standing, size.text)
             standing += 1
 
 

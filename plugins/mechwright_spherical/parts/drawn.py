@@ -53,17 +53,17 @@ def free_form(
         )
         return FreeForm(body, CUT, bores, tuple(sizes), centre=True)
     own = name.removesuffix("-n")
-    sizes = [*_arc_sizes(params, own, bores)]
+    stated = [*_arc_sizes(params, own, bores)]
     # Axes that miss the centre by more than the play of the pins make the linkage bind.
     notes = [
         f"Axes of the bores for pins pass the centre within {params.hardware.fit:g}",
         f"Faces of the bores ±{FACE:g}",
     ]
     if own == "ground":
-        sizes += _stand_sizes(params)
+        stated += _stand_sizes(params)
     if own == "coupler":
         notes += _slots(params)
-    return FreeForm(body, MILLED, bores, tuple(sizes), centre=True, notes=tuple(notes))
+    return FreeForm(body, MILLED, bores, tuple(stated), centre=True, notes=tuple(notes))
 
 
 def _tuple(at: Array) -> Vector:
