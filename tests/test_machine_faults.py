@@ -126,7 +126,7 @@ PLANTED = {
     "a bore": (lambda m: replace(m, files={**m.files, "crank.step": m.files["coupler.step"]}),
                "crank.step: bore-1 is"),
     "a body": (lambda m: replace(m, files={**m.files, "assembly.step": m.files["crank.step"]}),
-               "assembly.step: pillar is not there"),
+               "assembly.step: crank-shaft is not there"),
 }  # fmt: skip
 """What is planted to how, and to words in which the checker names it."""
 
@@ -191,9 +191,9 @@ CHANGED = {
     "no coupling": ("four-bar-machine", _without("coupling"), "contact.motor"),
     "a pin without limits": ("four-bar-machine", _bore("crank", "bore-2", fit=None), "fit.missing"),
     "a hole in which a pin may be loose": (
-        "four-bar-machine", _bore("ground", "pin-b0", diameter=6.0, fit=hole_fit(6, "J7")), "assembly.loose"),
-    "a link over its place": ("four-bar-machine", _moved("motor-plate", -0.4), "contact.column"),
-    "a foot beside its leg": ("four-bar-machine", _moved("foot", -3.0), "contact.floating"),
+        "four-bar-machine", _bore("ground", "bore-2", diameter=6.0, fit=hole_fit(6, "J7")), "assembly.loose"),
+    "a link over its place": ("four-bar-machine", _moved("motor-plate", -0.4), "contact.seat"),
+    "a foot beside its leg": ("four-bar-machine", _moved("foot", -60.0), "contact.floating"),
 }  # fmt: skip
 """What is planted to the example, the change, and the code of the finding."""
 
