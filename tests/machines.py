@@ -101,14 +101,18 @@ def _faults(machine: Machine) -> Iterator[str]:
     yield from _steps(machine)
 
 
+TOLD = {"units fall": "assembly.held", "has no support": "assembly.press"}
+"""Words of a fault of the order to the code of the warning that tells a fitter of it."""
+
+
 def _steps(machine: Machine) -> Iterator[str]:
     """Steps that one fitter cannot do and of which nothing is told, and bodies that nothing retains.
 
     Without a frame shafts and what is on them are held by somebody else.
     """
-    told = {one.code for one in machine.found}
-    for fault in order_faults(machine.plan):
-        if "units fall" not in fault or (machine.has_frame and "assembly.held" not in told):
-            yield fault
+    codes = {one.code for one in machine.found}
+    known = {words for words, code in TOLD.items() if code in codes}
+    known |= set() if machine.has_frame else {"units fall"}
+    yield from (one for one in order_faults(machine.plan) if not any(words in one for words in known))
     if machine.has_frame:
         yield from (one.message for one in loose(machine.plan.order))
