@@ -38,7 +38,9 @@ def disturbed(text: str, draw: random.Random) -> str:
 
 def _near(number: str, draw: random.Random) -> str:
     value = float(number) * draw.uniform(1 - SHARE, 1 + SHARE)
-    return f"{value:.3f}" if "." in number else f"{value:.0f}"
+    if "." in number:
+        return f"{value:.3f}"
+    return f"{value:.0f}" if round(value) != int(number) else f"{int(number) + 1}"
 
 
 def design_file(folder: Path, example: Path, number: int) -> Path:
