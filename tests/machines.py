@@ -31,7 +31,7 @@ from mechwright.pipeline import Build, Run, Wanted
 from mechwright.pipeline.page import pages_of
 from mechwright.pipeline.work import WORK
 from mechwright.plugins.host import host
-from mechwright_cad.assembly_order.inspections import loose
+from mechwright_cad.assembly_order.inspections import unretained
 from mechwright_cad.assembly_order.plan import Plan, plan_of
 
 
@@ -115,4 +115,4 @@ def _steps(machine: Machine) -> Iterator[str]:
     known |= set() if machine.has_frame else {"units fall"}
     yield from (one for one in order_faults(machine.plan) if not any(words in one for words in known))
     if machine.has_frame:
-        yield from (one.message for one in loose(machine.plan.order))
+        yield from (one.message for one in unretained(machine.plan.order))

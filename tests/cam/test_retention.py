@@ -9,7 +9,7 @@ from mechwright.contracts.part import Bore
 from mechwright.contracts.turned import KeySeat, Turned
 from mechwright.contracts.turned import Step as Length
 from mechwright.standards.dowels import dowel_for
-from mechwright_cad.assembly_order.inspections import loose
+from mechwright_cad.assembly_order.inspections import unretained
 
 
 def seated(hole, pin, form=None):
@@ -21,7 +21,7 @@ def seated(hole, pin, form=None):
 
 
 def said(*parts):
-    return [(one.code, one.message.partition(":")[0]) for one in loose(order_of(*parts))]
+    return [(one.code, one.message.partition(":")[0]) for one in unretained(order_of(*parts))]
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ def order_findings(plan: "Plan", *, framed: bool = True) -> "Iterator[Finding]":
     """
     order = plan.order
     if framed:
-        yield from loose(order)
+        yield from unretained(order)
     told: set[tuple[str, ...]] = set()
     for step in order.steps:
         if step.way is None:
@@ -60,7 +60,7 @@ def order_findings(plan: "Plan", *, framed: bool = True) -> "Iterator[Finding]":
     yield from _locked(order)
 
 
-def loose(order: "Order") -> "Iterator[Finding]":
+def unretained(order: "Order") -> "Iterator[Finding]":
     """Bodies of the finished assembly that can leave their place.
 
     A body is moved by ``MOVE`` with what is fastened to it, and pushes on what it meets.
