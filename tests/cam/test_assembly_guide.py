@@ -280,7 +280,7 @@ def test_a_pillar_with_threads_in_its_ends_needs_no_compound_and_screws_go_into_
         pillar = turned("pillar", Turned(steps, threads=threads), 2.0)
         ((words, _),) = told((plate, pillar))
         assert "slides in" in words
-        assert ("Nothing else holds it" in words) is not held
+        assert ("Nothing else keeps it there" in words) is not held
     stud = Part("stud", None, 0.0, "steel", (Instance("a", 10.0),), bought=screw(5, 16, "set").bought)
     steps = told((turned("pillar", Turned((Length(12.0, 30.0),), threads=(thread,))), stud))
     assert "stud (2) screws into pillar (1)." in steps[0][0]

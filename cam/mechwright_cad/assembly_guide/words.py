@@ -255,18 +255,18 @@ class Words:
             tight = f"{0.0 - most:.3f} to {-least:.3f} mm tight"
             return f"{pin} in {hole} is a press fit, {match.text}, {tight}. {press}"
         if least < 0:
-            loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose"
-            return f"{pin} in {hole} is a push fit, {match.text}, {loose}: light blows, or warm {hole}."
+            loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose: light blows, or warm {hole}"
+            return f"{pin} in {hole} is a push fit, {match.text}, {loose}.{self._held(match)}"
         play = f"with a play of {least:.3f} to {most:.3f} mm"
         return f"{pin} slides in {hole}, {match.text}, {play}.{self._held(match)}"
 
     def _held(self, match: Match) -> str:
-        """What keeps a pin from turning in a hole that it slides in."""
+        """What keeps a pin in a hole that is not tight at both limits."""
         if self.plan.order.seats.kind(match) != "bonded":
             return ""
         later = self._adjusting.chosen_at(match.pin)
         when = f", once step {later} has chosen the rings" if later else ""
-        return f" Nothing else holds it: bond it with retaining compound{when}."
+        return f" Nothing else keeps it there: bond it with retaining compound{when}."
 
     def _tries(self, step: Step, found: Sequence[Match]) -> Iterator[str]:
         """What has to move by hand now, as it first can."""

@@ -11,15 +11,18 @@ from typing import Literal
 import numpy as np
 
 from mechwright.contracts.bodies import rigid
+from mechwright.contracts.fits import EXACT
 from mechwright.contracts.motion import Motion
-from mechwright.contracts.part import Part
 from mechwright.mechanics.mating.rounds import NEAR, PARALLEL, ROOM, Match, matches, rounds_of
-from mechwright.standards import bushes, circlips, keys, springs
+from mechwright.standards import bushes, circlips, dowels, keys, springs
 from mechwright_cad.assembly_order.groups import BodyLayers, is_bearing
 from mechwright_cad.bodies import Body, is_coupling
 from mechwright_cad.contacts.screw_joints import ScrewJoint
 
 Kind = Literal["screwed", "pressed", "bonded", "keyed", "ring", "clamped"]
+
+UNDER_RING = 1.5
+"""From a hub to the circlip that keeps it, mm, at most: shim rings and the play under them."""
 
 
 @dataclass(frozen=True)
@@ -34,11 +37,14 @@ class Fastening:
         Numbers of the bodies without which it holds nothing.
     joins
         Numbers of those that it holds together, as far as they are there.
+    lasts
+        Whether it holds at the worst of all limits: a push fit that may have play falls apart in use.
     """
 
     kind: Kind
     needs: frozenset[int]
     joins: frozenset[int]
+    lasts: bool = True
 
 
 class Seats:
@@ -70,7 +76,7 @@ class Seats:
 
     def kind(self, match: Match) -> Kind | None:
         """What fastens a pin in its hole; None where it slides or turns."""
-        least, _ = match.play
+        least, most = match.play
         if match.inside.threaded:
             return "screwed"
         if is_coupling(self.bodies[match.hole].part):
@@ -80,25 +86,39 @@ class Seats:
         if match.missing_fits:
             return "bonded" if least <= ROOM else None
         if least < 0:
-            return "pressed"
-        return (
-            "bonded"
-            if _needs_compound(match, *(self.bodies[k].part for k in (match.pin, match.hole)))
-            else None
+            return "bonded" if most > EXACT and self._is_own_seat_of_dowel(match) else "pressed"
+        return "bonded" if self._needs_compound(match) else None
+
+    def _needs_compound(self, match: Match) -> bool:
+        """Whether nothing but retaining compound holds a pin in a hole that it slides in.
+
+        A pin that goes into one of several holes by turns is not bonded.
+        """
+        pin, hole = (self.bodies[k].part for k in (match.pin, match.hole))
+        if match.inside.face in hole.vacant:
+            return False
+        ring = any(part.turned is not None and part.turned.bore for part in (pin, hole))
+        screwed_down = pin.turned is not None and pin.turned.threads
+        if ring or screwed_down or pin.bought is not None or hole.bought is not None:
+            return False
+        return not (pin.turned is not None and pin.turned.seats and self._is_under_ring(match))
+
+    def _is_under_ring(self, match: Match) -> bool:
+        """Whether a circlip on the shaft keeps a hub there."""
+        return any(
+            part.bought is not None
+            and part.bought.standard in circlips.STANDARDS
+            and self.standing.touch(k, match.pin)
+            and self.standing.within(k, match.hole, UNDER_RING)
+            for k, part in enumerate(body.part for body in self.bodies)
         )
 
-
-def _needs_compound(match: Match, pin: Part, hole: Part) -> bool:
-    """Whether nothing but retaining compound holds a pin in a hole that it slides in.
-
-    A pin that goes into one of several holes by turns is not bonded.
-    """
-    if match.inside.face in hole.vacant:
-        return False
-    ring = any(part.turned is not None and part.turned.bore for part in (pin, hole))
-    keyed = pin.turned is not None and pin.turned.seats
-    screwed_down = pin.turned is not None and pin.turned.threads
-    return not (ring or keyed or screwed_down or pin.bought is not None or hole.bought is not None)
+    def _is_own_seat_of_dowel(self, match: Match) -> bool:
+        """Whether it is the tightest hole of a dowel pin, which the pin stays in."""
+        bought = self.bodies[match.pin].part.bought
+        if bought is None or bought.standard not in dowels.STANDARDS:
+            return False
+        return match.play <= min(other.play for other in self.matches if other.pin == match.pin)
 
 
 def fastenings(seats: Seats, joints: Sequence[ScrewJoint]) -> list[Fastening]:
@@ -110,7 +130,7 @@ def fastenings(seats: Seats, joints: Sequence[ScrewJoint]) -> list[Fastening]:
         kind = seats.kind(match)
         known.add((min(pair), max(pair)))
         if kind is not None:
-            found.append(Fastening(kind, pair, pair))
+            found.append(Fastening(kind, pair, pair, kind != "pressed" or match.play[1] <= EXACT))
     return [*found, *_others(seats, known)]
 
 

@@ -150,14 +150,19 @@ class Holding:
 
     def unretained(self, there: frozenset[int], root: int) -> list[Unit]:
         """Units that are not held: some way is free to each of them."""
+        return [unit for unit, _ in self.free(there, root)]
+
+    def free(self, there: frozenset[int], root: int) -> Iterator[tuple[Unit, Way]]:
+        """Units that are not held, each with the first way that is free to it."""
         units = self.units(there)
         ground = units[root]
-        return [
-            unit
-            for unit in sorted(set(units.values()), key=min)
-            if unit != ground
-            and not all(self._stopped(unit, units, {ground}, way) for way in self._tried(unit))
-        ]
+        for unit in sorted(set(units.values()), key=min):
+            if unit != ground:
+                ways = (way for way in self._tried(unit) if not self._stopped(unit, units, {ground}, way))
+                way = next(ways, None)
+                if way is not None:
+                    x, y, z = way.tolist()
+                    yield unit, (x, y, z)
 
     def _tried(self, unit: Unit) -> Iterator[Array]:
         seen = dict.fromkeys((*UPRIGHT, *_SIDES))

@@ -1,4 +1,4 @@
-"""What speaks against an order of assembly: parts that nothing holds, tools that do not reach, presses."""
+"""What speaks against an assembly and its order: loose parts, tools that do not reach, presses."""
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
@@ -8,13 +8,14 @@ from mechwright.pipeline import Build, Inspection
 from mechwright.pipeline.work import SOLIDS
 
 if TYPE_CHECKING:
+    from mechwright_cad.assembly_order.holding import Way
     from mechwright_cad.assembly_order.levels import Step
     from mechwright_cad.assembly_order.order import Order
     from mechwright_cad.assembly_order.plan import Plan
 
 
 class AssemblyOrder(Inspection):
-    """The order of assembly of a machine or a chain: parts held, tools that reach, presses supported.
+    """The order of assembly of a machine or a chain: parts held and retained, tools that reach, presses.
 
     It waits for the solids, so that the plan of the assembly guide serves both.
     """
@@ -39,11 +40,13 @@ class AssemblyOrder(Inspection):
 
 
 def order_findings(plan: "Plan", *, framed: bool = True) -> "Iterator[Finding]":
-    """A warning for each part that is held by nothing, tool that does not reach, and press without support.
+    """An error for each part that nothing retains, a warning for each step that a fitter cannot do.
 
     Without a frame nothing is said of what is held: its plates and bearings are somebody else's.
     """
     order = plan.order
+    if framed:
+        yield from unretained(order)
     told: set[tuple[str, ...]] = set()
     for step in order.steps:
         if step.way is None:
@@ -55,6 +58,40 @@ def order_findings(plan: "Plan", *, framed: bool = True) -> "Iterator[Finding]":
                     told.add(key)
                     yield finding
     yield from _locked(order)
+
+
+def unretained(order: "Order") -> "Iterator[Finding]":
+    """Bodies of the finished assembly that can leave their place.
+
+    A body is moved by ``MOVE`` with what is fastened to it, and pushes on what it meets.
+    """
+    from mechwright_cad.assembly_order.blocking import MOVE
+
+    if order.root is None:
+        return
+    told: set[str] = set()
+    for unit, way in order.retention.free(frozenset(range(len(order.bodies))), order.root):
+        body = order.bodies[max(unit, key=lambda k: (order.size(k), -k))]
+        name = body.part.name
+        if name in told:
+            continue
+        told.add(name)
+        yield Finding.error(
+            "assembly.loose",
+            "",
+            f"{name} of {body.instance.body} can leave its place along {_along(way)}: nothing fastens it, "
+            f"and no body stops it within {MOVE:g} mm",
+            remedy="give it a shoulder, a circlip or a screw, or a pin that is tight at both of its limits",
+        )
+
+
+def _along(way: "Way") -> str:
+    """A direction as three coordinates.
+
+    >>> _along((0.0, 0.0, -1.0))
+    '(0, 0, -1)'
+    """
+    return f"({', '.join(f'{round(x, 2) + 0.0:g}' for x in way)})"
 
 
 def _names(order: "Order", those: "Sequence[int]") -> str:

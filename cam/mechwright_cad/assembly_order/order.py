@@ -107,6 +107,13 @@ class Order:
         blocking = Blocking(self.bodies, self.standing)
         return Holding(blocking, fastenings(self.seats, self.joints), ways)
 
+    @cached_property
+    def retention(self) -> Holding:
+        """What holds each body of the finished assembly for good, at the worst of all limits."""
+        holding = self.holding
+        lasting = [one for one in holding.fastenings if one.lasts]
+        return Holding(holding.blocking, lasting, holding.ways)
+
     @property
     def root(self) -> int | None:
         """What all goes onto; None without bodies."""

@@ -6,8 +6,10 @@ name of the face: ``"bore 12 H7 (0/+0.018)"``. All are the limits that drawing a
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import cadquery as cq
+import numpy as np
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.GeomAbs import GeomAbs_SurfaceType
 from OCP.TCollection import TCollection_ExtendedString, TCollection_HAsciiString
@@ -17,6 +19,7 @@ from OCP.TDocStd import TDocStd_Document
 from OCP.XCAFDimTolObjects import XCAFDimTolObjects_DimensionObject, XCAFDimTolObjects_DimensionType
 from OCP.XCAFDoc import XCAFDoc_Dimension, XCAFDoc_DimTolTool, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
+from mechwright.arrays import Array
 from mechwright.contracts.fits import Fit
 from mechwright.contracts.part import Part
 from mechwright.mechanics.mating.rounds import Face, faces_of
@@ -44,27 +47,45 @@ def add_limits(document: TDocStd_Document, label: TDF_Label, part: Part) -> None
     for face, fit in limited_faces(part):
         text = f"{face.face} {fit.text}"
         labels = TDF_LabelSequence()
-        for one, centre, radius, low, high in cylinders:
-            near = abs(complex(*centre) - complex(*face.centre)) <= SAME
-            same = near and abs(2 * radius - face.diameter) <= 2 * SAME
-            if same and face.low - SAME <= (low + high) / 2 <= face.high + SAME:
+        for one, cylinder in cylinders:
+            if cylinder.belongs_to(face):
                 labels.Append(_named(shapes, label, one, text))
         if labels.Length():
             _dimension(dimensions, labels, fit, text)
 
 
-def _cylinders(solid: cq.Solid) -> Iterator[tuple[cq.Face, tuple[float, float], float, float, float]]:
-    """The upright cylindrical faces: centre, radius, lowest and highest point; mm."""
+@dataclass(frozen=True)
+class _Cylinder:
+    """A cylindrical face: the middle of its axis, the axis, a unit vector, and its diameter; mm."""
+
+    middle: Array
+    axis: Array
+    diameter: float
+
+    def belongs_to(self, face: Face) -> bool:
+        """Whether it is all or some of a round face."""
+        direction = np.asarray(face.direction)
+        away = self.middle - np.asarray(face.centre)
+        along = float(away @ direction)
+        return bool(
+            abs(self.diameter - face.diameter) <= 2 * SAME
+            and np.linalg.norm(np.cross(self.axis, direction)) <= SAME
+            and np.linalg.norm(away - along * direction) <= SAME
+            and face.low - SAME <= along <= face.high + SAME
+        )
+
+
+def _cylinders(solid: cq.Solid) -> Iterator[tuple[cq.Face, _Cylinder]]:
     for face in solid.Faces():
         surface = BRepAdaptor_Surface(face.wrapped)
         if surface.GetType() != GeomAbs_SurfaceType.GeomAbs_Cylinder:
             continue
-        cylinder = surface.Cylinder()
-        axis = cylinder.Axis()
-        if abs(axis.Direction().Z()) < 1 - SAME**2:
-            continue
-        place, box = axis.Location(), face.BoundingBox()
-        yield face, (place.X(), place.Y()), cylinder.Radius(), box.zmin, box.zmax
+        found = surface.Cylinder()
+        place, way = found.Axis().Location(), found.Axis().Direction()
+        axis = np.array((way.X(), way.Y(), way.Z()))
+        along = (surface.FirstVParameter() + surface.LastVParameter()) / 2
+        middle = np.array((place.X(), place.Y(), place.Z())) + along * axis
+        yield face, _Cylinder(middle, axis, 2 * found.Radius())
 
 
 def _named(shapes: XCAFDoc_ShapeTool, label: TDF_Label, face: cq.Face, text: str) -> TDF_Label:

@@ -10,8 +10,8 @@ from mechwright.contracts.free_form import AngleSize, FormSize, LengthSize, Radi
 from mechwright.geometry.segments import Point
 from mechwright_cad.form_drawing.projection import FRONT, LEFT, TOP, View
 from mechwright_cad.sheet.circles import arc
+from mechwright_cad.sheet.dimensions import FREE, GAP, ROW, length, upright
 from mechwright_cad.sheet.sheet import HEIGHT, Sheet, Stroke, Text, arrow, width_of
-from mechwright_cad.turned_drawing.dimensions import FREE, GAP, ROW, length, upright
 
 ACROSS = 1e-6
 """Cosine to the line of sight above which a direction is not drawn in its true size."""

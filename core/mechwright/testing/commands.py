@@ -21,6 +21,8 @@ _INTERFERENCE = "interference"
 """The inspection that looks for bodies that collide, by the name under which it is registered."""
 _COLLISION = "interference.collision"
 """Code of its finding that two do."""
+_CONTACT = "contact"
+"""The inspection that looks for bodies that touch nothing."""
 HEAVY = ("cadquery", "ezdxf", "flint", "jinja2", "numba", "OCP", "scipy", "shapely")
 """Libraries that take from 30 ms to seconds to import; work that does not need them never pays for them."""
 
@@ -87,6 +89,17 @@ def collisions(design: Mapping[str, Any], folder: Path, *, solids: bool) -> list
     if refused:
         raise AssertionError("\n".join(f"{one.code}: {one.message}" for one in refused))
     return [finding.message for finding in found if finding.code == _COLLISION]
+
+
+def gaps(design: Mapping[str, Any], folder: Path) -> list[str] | None:
+    """Bodies of a machine that touch nothing, and gaps that no part declares: a message for each.
+
+    ``folder`` is an empty one to work in. None where the design is refused.
+    """
+    with Build(_written(design, folder), host(), Wanted(command="check")) as build:
+        if errors(build.findings):
+            return None
+        return [one.message for one in build.host.get(Inspection, _CONTACT).findings(build)]
 
 
 def _written(design: Mapping[str, Any], folder: Path) -> Path:

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -17,9 +18,10 @@ from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import Flange, GroundPlate, Mounting
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.part import Part
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, PluginError
 from mechwright.machine import MachineSettings
 from mechwright.machine.framed import framed
+from mechwright.testing import commands
 from mechwright.tolerances import TOLERANCES
 
 _SAMPLES = 25
@@ -35,6 +37,8 @@ class FrameTests:
 
     family: ClassVar[type[Family[Any]]]
     """The class under test."""
+    examples: ClassVar[Sequence[Mapping[str, Any]]] = ({},)
+    """Tables of designs that build without an error finding."""
     max_frames: ClassVar[int] = 4
     """Random designs that get a frame or a refusal."""
 
@@ -57,6 +61,23 @@ class FrameTests:
         else:
             found = [*mounting_faults(mounting, parts, motion)]
         assert not found, "; ".join(found)
+
+    def test_bodies_of_a_machine_touch(self, tmp_path: Path) -> None:
+        """In a frame each body touches what carries it, or its part declares a play."""
+        for table in self.examples:
+            design = {**self._file(table, tmp_path), "machine": {"frame": "base", "motor": "auto"}}
+            try:
+                found = commands.gaps(design, tmp_path)
+            except PluginError as error:
+                pytest.skip(str(error))
+            if found is not None:
+                assert not found, "; ".join(found)
+                return
+        pytest.skip("no example has a frame")
+
+    def _file(self, design: Mapping[str, Any], folder: Path) -> Mapping[str, Any]:
+        """The design file of an example; the contract says how."""
+        raise NotImplementedError
 
     def strategy(self) -> st.SearchStrategy[Mapping[str, Any]]:
         """Random tables; the contract says which."""
