@@ -4,7 +4,7 @@ import os
 import traceback
 from pathlib import Path
 
-from mechwright.cli.streams import say
+from mechwright.cli.streams import plain, say
 from mechwright.contracts.guard import described, now
 from mechwright.errors import MechwrightError, PluginFaultError, shortened
 
@@ -18,7 +18,7 @@ _NO_ROOM = "failed to map segment"
 def lines(error: BaseException) -> list[str]:
     """Say what went wrong; a character that is not printable, which could steer a terminal, is escaped."""
     said = str(error) if isinstance(error, MechwrightError) else shortened(_unexpected(error))
-    shown = [_printable(line) for line in said.splitlines()]
+    shown = [plain(line) for line in said.splitlines()]
     if os.environ.get(TRACEBACK) and (
         isinstance(error, PluginFaultError) or not isinstance(error, MechwrightError)
     ):
@@ -36,12 +36,8 @@ def warned(
 ) -> None:
     """Say a warning of Python's in a line, with the call into a plugin that is under way."""
     who = now() or "this program"
-    said = _printable(shortened(" ".join(f"{category.__name__}: {message}".split())))
+    said = plain(shortened(" ".join(f"{category.__name__}: {message}".split())))
     say(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})")
-
-
-def _printable(line: str) -> str:
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
 
 
 def _unexpected(error: BaseException) -> str:
