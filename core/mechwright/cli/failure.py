@@ -1,7 +1,11 @@
 """What the command line says when something fails: one line each, also for a fault that nobody expected."""
 
 import os
+import sys
+import threading
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from mechwright.cli.streams import plain, say
@@ -38,6 +42,33 @@ def warned(
     who = now() or "this program"
     said = plain(shortened(" ".join(f"{category.__name__}: {message}".split())))
     say(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})")
+
+
+@contextmanager
+def errors_in_lines() -> Iterator[None]:
+    """Say each error that nobody catches in a line: of what is deleted or collected, and of threads.
+
+    Such errors end nothing. Python prints a traceback each time.
+    """
+    before, told = (sys.unraisablehook, threading.excepthook), set[str]()
+
+    def say_once(error: BaseException | None, what: str) -> None:
+        if error is None or isinstance(error, SystemExit):
+            return
+        who = f"{now()}: " if now() else ""
+        line = plain(shortened(f"mechwright: warning: {who}{what}: {described(error)}"))
+        if line not in told:
+            told.add(line)
+            say(line)
+
+    sys.unraisablehook = lambda args: say_once(args.exc_value, "an error that ends nothing")
+    threading.excepthook = lambda args: say_once(
+        args.exc_value, f"the thread {args.thread.name if args.thread else ''!r} ended by an error"
+    )
+    try:
+        yield
+    finally:
+        sys.unraisablehook, threading.excepthook = before
 
 
 def _unexpected(error: BaseException) -> str:

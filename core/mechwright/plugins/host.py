@@ -321,6 +321,12 @@ def host() -> Host:
     return load()
 
 
+def foreign() -> bool:
+    """Whether a plugin of another distribution is used in this process, as far as plugins have been loaded."""
+    used = host().registered.values() if host.cache_info().currsize else ()
+    return any(one.distribution != BUILT_IN for entries in used for one in entries.values())
+
+
 def _results() -> dict[str, Result[Any]]:
     return {one.name: one for one in host().all(Result)}
 
