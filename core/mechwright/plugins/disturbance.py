@@ -9,30 +9,40 @@ import builtins
 import dataclasses
 import importlib.abc
 import importlib.machinery
+import numbers
 import os
 import signal
 import sys
 import threading
 import types
+from collections import abc
 from collections.abc import Callable, Iterator, Sequence
+from importlib.metadata import distributions
+from itertools import product
 from typing import Any
 
-_LIBRARIES = sys.stdlib_module_names | {
-    *(
-        "mechwright",
-        "mechwright_cad",
-        "mechwright_cam",
-        "numpy",
-        "scipy",
-        "shapely",
-        "pydantic",
-        "pydantic_core",
-    ),
-    *("pluggy", "typer", "rich", "click", "ezdxf", "cadquery", "OCP", "jinja2", "numba", "pyarrow"),
-}
+from mechwright.plugins.host import BUILT_IN
+
+_OWN = frozenset(
+    (
+        BUILT_IN,
+        *(
+            point.module.partition(".")[0]
+            for one in distributions(name=BUILT_IN)
+            for point in one.entry_points
+        ),
+    )
+)
+"""Packages of this program."""
+_LIBRARIES = (
+    sys.stdlib_module_names
+    | _OWN
+    | {
+        *("numpy", "scipy", "shapely", "pydantic", "pydantic_core", "pluggy", "typer", "rich", "click"),
+        *("ezdxf", "cadquery", "OCP", "jinja2", "numba", "pyarrow"),
+    }
+)
 """Packages that this program uses, of which a plugin changes nothing."""
-_OWN = ("mechwright", "mechwright_")
-"""How the names of this program's packages begin."""
 _WITH_CONSTANTS = frozenset(("math", "cmath", "numpy", "os", "string", "sys"))
 """Modules whose constants have small letters; those of others are known by their capitals."""
 _VARYING = frozenset(("ps1", "ps2", "dont_write_bytecode", "tracebacklimit"))
@@ -42,6 +52,8 @@ _SETTINGS = "MECHWRIGHT_"
 """How variables of the environment begin by which a user sets this program."""
 _OURS_TO_SET = frozenset((("sys", "stdout"), ("sys", "stderr"), ("warnings", "showwarning")))
 """Names that the guard itself sets back."""
+_LIBRARIES_SET = frozenset((("PathFinder", "find_distributions"),))
+"""Attributes of classes that libraries set while they are loaded: importlib_metadata, which pint brings."""
 _HOOKS = ("excepthook", "unraisablehook", "displayhook", "breakpointhook")
 
 
@@ -138,7 +150,7 @@ class Disturbance(importlib.abc.MetaPathFinder):
         for cls, names in self._classes.items():
             own = vars(cls)
             for key, value in names.items():
-                if own.get(key) is not value:
+                if own.get(key) is not value and (cls.__name__, key) not in _LIBRARIES_SET:
                     yield f"changes {cls.__module__}.{cls.__qualname__}.{key}, which is everybody's"
             for key in own.keys() - names.keys():
                 if _is_used(key, own[key]) and any(key in vars(one) for one in cls.__mro__[1:]):
@@ -217,7 +229,7 @@ def _is_kept(module: str, name: str, value: Any) -> bool:
         return True
     if name.startswith(("_", "last_")) or name in _VARYING:
         return False
-    if module.startswith(_OWN):
+    if module.partition(".")[0] in _OWN:
         return name.isupper() and not isinstance(value, types.ModuleType)
     return isinstance(value, _PLAIN) and (name.isupper() or module in _WITH_CONSTANTS)
 
@@ -227,7 +239,7 @@ def _inner(module: str, value: Any) -> tuple[Any, ...]:
     if isinstance(value, types.FunctionType):
         more = value.__kwdefaults__ or {}
         return (id(value.__code__), id(value.__defaults__), *((key, id(one)) for key, one in more.items()))
-    if not module.startswith(_OWN) or isinstance(value, type):
+    if module.partition(".")[0] not in _OWN or isinstance(value, type):
         return ()
     if isinstance(value, (dict, types.MappingProxyType)):
         return tuple((key, id(one)) for key, one in value.items())
@@ -241,6 +253,16 @@ def _inner(module: str, value: Any) -> tuple[Any, ...]:
 _HIDEABLE = frozenset(name for name in vars(builtins) if not name.startswith("__"))
 """Names of Python that a module may hide by one of its own."""
 _heard: list[int] = []
+
+
+_BUILT_IN_TYPES = (str, bytes, int, float, complex, bool, list, tuple, dict, set, frozenset, type(None))
+
+
+def _kinds() -> list[bool]:
+    """Which types of Python are taken for which kinds, such as for a mapping or a number."""
+    names = [(module, name) for module in (abc, numbers) for name in module.__all__ if name != "ByteString"]
+    kinds: list[type] = [getattr(*one) for one in names]
+    return [issubclass(one, kind) for one, kind in product(_BUILT_IN_TYPES, kinds)]
 
 
 def _audits() -> list[int]:
@@ -287,6 +309,7 @@ def _process() -> dict[str, Any]:
     """Limits, timers, and what the interpreter calls."""
     found: dict[str, Any] = {f"sys.{name}": getattr(sys, name, None) for name in _HOOKS}
     found["threading.excepthook"] = threading.excepthook
+    found["kinds of types (register of collections.abc or numbers)"] = _kinds()
     found["the tracing function"] = sys.gettrace()
     found["the profiling function"] = sys.getprofile()
     if hasattr(signal, "getitimer"):
@@ -294,6 +317,11 @@ def _process() -> dict[str, Any]:
         found["a timer"] = [signal.getitimer(one)[0] > 0 for one in timers]
     if hasattr(os, "getpriority"):
         found["the priority"] = os.getpriority(os.PRIO_PROCESS, 0)
+    for what, name in (("the user", "geteuid"), ("the group", "getegid"), ("the groups", "getgroups")):
+        if hasattr(os, name):
+            found[what] = getattr(os, name)()
+    if hasattr(os, "sched_getaffinity"):
+        found["the cores"] = os.sched_getaffinity(0)
     try:
         import resource
     except ImportError:  # not on Windows

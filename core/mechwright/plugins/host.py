@@ -322,7 +322,7 @@ def host() -> Host:
 
 
 def foreign() -> bool:
-    """Whether a plugin of another distribution is used in this process, as far as plugins have been loaded."""
+    """Whether a plugin of another distribution is used in this process, which has loaded its plugins."""
     used = host().registered.values() if host.cache_info().currsize else ()
     return any(one.distribution != BUILT_IN for entries in used for one in entries.values())
 
