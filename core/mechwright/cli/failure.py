@@ -15,6 +15,10 @@ from mechwright.errors import MechwrightError, PluginFaultError, shortened
 TRACEBACK = "MECHWRIGHT_TRACEBACK"
 """Environment variable; if it is not empty, an unexpected fault prints its traceback as well."""
 
+MOST_WARNINGS = 100
+"""Warnings of Python's that a command says: one in a loop would hide what else is said."""
+_warned: list[str] = []
+"""Those that were said, and a mark for each that was not."""
 _NO_ROOM = "failed to map segment"
 """What the loader says of a library for which there is no memory."""
 
@@ -39,9 +43,15 @@ def warned(
     line: object = None,  # noqa: ARG001
 ) -> None:
     """Say a warning of Python's in a line, with the call into a plugin that is under way."""
+    if len(_warned) >= MOST_WARNINGS:
+        if len(_warned) == MOST_WARNINGS:
+            say("mechwright: warning: there are more warnings, which are omitted")
+        _warned.append("")
+        return
     who = now() or "this program"
     said = plain(shortened(" ".join(f"{category.__name__}: {message}".split())))
-    say(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})")
+    _warned.append(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})")
+    say(_warned[-1])
 
 
 @contextmanager
@@ -50,6 +60,7 @@ def errors_in_lines() -> Iterator[None]:
 
     Such errors end nothing. Python prints a traceback each time.
     """
+    _warned.clear()
     before, told = (sys.unraisablehook, threading.excepthook), set[str]()
 
     def say_once(error: BaseException | None, what: str) -> None:

@@ -238,7 +238,8 @@ def _reason(error: BaseException) -> str:
     said = "".join(c for c in text[0] if c.isprintable()) if text else ""
     if isinstance(error, ModuleNotFoundError) and (new := _MOVED.get(str(error.name))):
         said += f"; it is called {new} now"
-    return shortened(f"{type(error).__name__}: {said}") if said else type(error).__name__
+    kind = " ".join(type(error).__name__.split())
+    return shortened(f"{kind}: {said}") if said else kind
 
 
 def load(
