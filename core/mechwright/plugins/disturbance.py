@@ -255,7 +255,20 @@ _HIDEABLE = frozenset(name for name in vars(builtins) if not name.startswith("__
 _heard: list[int] = []
 
 
-_BUILT_IN_TYPES = (str, bytes, int, float, complex, bool, list, tuple, dict, set, frozenset, type(None))
+_BUILT_IN_TYPES: tuple[type, ...] = (
+    str,
+    bytes,
+    int,
+    float,
+    complex,
+    bool,
+    list,
+    tuple,
+    dict,
+    set,
+    frozenset,
+    type(None),
+)
 
 
 def _kinds() -> list[bool]:
