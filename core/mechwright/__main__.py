@@ -11,6 +11,13 @@ def program() -> None:
         from mechwright.cli import main
 
         main()
+    except SystemExit as error:
+        from mechwright.cli import leave
+        from mechwright.plugins.host import foreign
+
+        if foreign():
+            leave(error.code)
+        raise
     except KeyboardInterrupt:  # while what listens is loaded
         from mechwright.cli.stopping import ended
 

@@ -1,8 +1,6 @@
 """Libraries that are not installed with the rest: which extra brings each, and the line that installs it."""
 
 import json
-import os
-import shlex
 import sys
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, distribution
@@ -13,6 +11,7 @@ from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 from mechwright.errors import PluginError
+from mechwright.shell import word
 
 NAME = "mechwright"
 EXTRAS = {
@@ -81,7 +80,7 @@ def install_line(extra: str) -> str:
     else:
         what = f"{NAME}[{extra}] @ {source}"
     option = "-e " if editable else ""
-    return f"{_quoted(sys.executable or 'python')} -m pip install {option}{_quoted(what, always=True)}"
+    return f"{word(sys.executable or 'python')} -m pip install {option}{word(what, always=True)}"
 
 
 def _source() -> tuple[bool, Path | str | None]:
@@ -116,10 +115,3 @@ def _sources() -> tuple[bool, Path | str | None]:
 
 def _path(address: str) -> Path:
     return Path(url2pathname(urlsplit(address).path))
-
-
-def _quoted(text: str, *, always: bool = False) -> str:
-    """A word of a line for a shell; ``always`` one with brackets, which some shells take for a pattern."""
-    if os.name == "nt" or (always and not set('"$`\\!') & set(text)):
-        return f'"{text}"' if always or " " in text else text
-    return shlex.quote(text)

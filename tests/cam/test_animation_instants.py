@@ -45,6 +45,19 @@ def test_the_acceleration_pole_is_the_familys(name, body, channels):
     np.testing.assert_allclose(numbers(found["pole"])[:, near], wanted[:, near], rtol=2e-3, atol=0.05)
 
 
+def test_where_a_lever_stands_its_coupler_turns_about_the_acceleration_pole():
+    """Both rates are 0 at the ends of a swing: their quotient was rounding, 0.3 mm off."""
+    design = load(EXAMPLES / "four-bar-double-rocker.toml", host())
+    motion = design.family.solve(design.params, 361)
+    (found,) = [one for one in instants(motion) if one["body"] == "coupler"]
+    ends = [0, 180, 360]
+    centre, pole = numbers(found["centre"]), numbers(found["pole"])
+    wanted = np.array([motion.channels[channel].values for channel in ("xG", "yG")])
+    np.testing.assert_allclose(centre[:, ends], wanted[:, ends], atol=0.02)
+    np.testing.assert_allclose(centre[:, ends], pole[:, ends])
+    assert np.isnan(numbers(found["opposite"])[:, ends]).all()
+
+
 def test_a_pivot_is_no_instant_centre_worth_showing():
     turns = Poses.planar(5.0, 3.0, TURN)
     slides = Poses.planar(TURN, 0.0, 0 * TURN)

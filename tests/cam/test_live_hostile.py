@@ -179,6 +179,16 @@ def test_other_names_and_second_heads_get_nothing(page, rows, host):
         assert status(answer(one)) in {400, 403}
 
 
+@pytest.mark.parametrize("name", ["Origin", "Host", "Cookie"])
+def test_of_two_heads_none_counts(page, name):
+    """The first is another page's, the second the page's own: a browser and a server may each take either."""
+    own = head(page, "Content-Length: 2", "Connection: close", "Cookie: b=2", what="described") + b"{}"
+    first, _, rest = own.partition(b"\r\n")
+    with line(page) as one:
+        one.sendall(first + b"\r\n" + f"{name}: http://mechwright.example\r\n".encode() + rest)
+        assert status(answer(one)) == 400
+
+
 @pytest.mark.parametrize(
     "text",
     [

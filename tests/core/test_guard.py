@@ -2,6 +2,7 @@
 
 import json
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -104,6 +105,58 @@ def test_errors_name_their_line() -> None:
     assert told("check", divides).startswith("ZeroDivisionError: division by zero (test_guard.py, line ")
     assert "RecursionError" in told("solve", deep)
     assert "NotImplementedError" in told("parts", lambda _: (_ for _ in ()).throw(NotImplementedError))
+
+
+STUBBORN = """
+import itertools
+from mechwright.contracts import alarm
+alarm.AGAIN, alarm.MOST_CAUGHT = 0.05, 3
+with alarm.in_time(0.05, "plugin rude of rude-mechanisms: family rude: check()"):
+    while True:
+        try:
+            next(itertools.count())
+        except BaseException:
+            continue
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="the system has no alarm")
+def test_what_catches_whatever_ends_it_ends_the_program() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", STUBBORN], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert done.returncode == 2
+    who = "plugin rude of rude-mechanisms: family rude: check()"
+    assert done.stderr == f"mechwright: {who}: takes more than 0.05 s and catches what ends it\n"
+
+
+def test_the_name_of_an_error_is_in_its_line() -> None:
+    kind = type("two\nlines", (Exception,), {})
+
+    def raises(*_: object) -> None:
+        raise kind("x")
+
+    assert told("check", raises).startswith("two lines: x (test_guard.py, line ")
+
+
+def test_of_many_warnings_the_first_are_said(capsys: pytest.CaptureFixture[str]) -> None:
+    with failure.errors_in_lines():
+        for number in range(failure.MOST_WARNINGS + 50):
+            failure.warned(f"number {number}", UserWarning, "a.py", 1)
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == failure.MOST_WARNINGS + 1
+    assert said[-1] == "mechwright: warning: there are more warnings, which are omitted"
+
+
+def test_an_error_in_a_thread_is_a_line(capsys: pytest.CaptureFixture[str]) -> None:
+    with failure.errors_in_lines():
+        for name in ("first", "second"):
+            thread = threading.Thread(target=divides, name=name)
+            thread.start()
+            thread.join()
+    first, second = capsys.readouterr().err.splitlines()
+    assert first.startswith("mechwright: warning: the thread 'first' ended by an error: ZeroDivisionError: ")
+    assert "'second'" in second
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="the system has no alarm")

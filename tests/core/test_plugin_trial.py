@@ -82,6 +82,12 @@ def test_a_module_that_does_not_return_is_named(candidates, monkeypatch) -> None
     assert verdicts([deaf])[deaf.key] == "takes more than 0.5 s while it is loaded"
 
 
+def test_what_is_called_at_the_end_has_as_long(candidates, monkeypatch) -> None:
+    monkeypatch.setattr(guard, "LOADING", 1.0)
+    slow, good = candidates(f"import atexit, time; atexit.register(time.sleep, 600)\n{GOOD}", GOOD)
+    assert verdicts([slow, good]) == {slow.key: "takes more than 1 s when the program ends", good.key: ""}
+
+
 def test_without_a_second_process_nothing_is_said(candidates, monkeypatch) -> None:
     def none(*_: object, **__: object) -> None:
         raise OSError
@@ -99,6 +105,8 @@ LIBRARIES = (
     "ezdxf",
     "typer",
     "rich.progress",
+    "pint",
+    "importlib_metadata",
 )
 MORE = (
     "asyncio",
@@ -169,6 +177,31 @@ def test_a_plugin_that_ends_the_program_the_second_time_is_named(tmp_path: Path)
     assert "plugin rude of rude-mechanisms is not used: SystemExit: 0" in done.stderr
     assert done.returncode == 0
     assert "good" in done.stdout
+
+
+DELETED = """
+import os, threading, time
+class Rude:
+    def __del__(self):
+        os._exit(0)
+class Faulty:
+    def __del__(self):
+        1 / 0
+kept = Rude()
+Faulty()
+"""
+
+
+def test_what_a_plugin_deletes_changes_no_exit_code(tmp_path: Path) -> None:
+    """Its objects are deleted when the interpreter ends; an error there is a line, and ends nothing."""
+    installed(tmp_path, {"rude": DELETED + GOOD.replace("good", "rude")})
+    (tmp_path / "d.toml").write_text('family = "rude"\nx = 1\n')
+    done = run(tmp_path, "check", "d.toml")
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    first, *_ = done.stderr.splitlines()
+    assert first.startswith("mechwright: warning: ")
+    assert "an error that ends nothing: ZeroDivisionError: division by zero (rude.py, line 8)" in first
 
 
 def test_a_build_fails_with_a_code_where_its_family_ends_the_program(tmp_path: Path) -> None:

@@ -74,6 +74,11 @@ def test_equal_ratios_and_whole_numbers():
             "study.ranges.x.greatest: 11.0: input should be less",
         ),
         ({"ranges": {"x": {"least": 1, "greatest": 1}}}, "least has to be smaller"),
+        (
+            {"ranges": {"x": {"least": math.nan, "greatest": 1}}},
+            "ranges.x.least: nan should be a finite number",
+        ),
+        ({"ranges": {"x": {"values": [1, math.inf]}}}, "ranges.x.values.1: inf should be a finite number"),
         ({"ranges": {"x": {"least": 0}}}, "needs least and greatest, or values"),
         ({"ranges": {"x": {"least": 0, "greatest": 1, "step": 0}}}, "has to be more than 0"),
         ({"ranges": {"x": {"least": -1, "greatest": 1, "log": True}}}, "equal ratios need more than 0"),
@@ -109,6 +114,7 @@ def test_what_a_study_cannot_ask_for_is_one_line(changed, said):
     with pytest.raises(DesignError) as caught:
         study(**changed)
     assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
     assert "\n" not in str(caught.value)
     assert str(caught.value).count("bowl.toml") == 1
 

@@ -58,7 +58,7 @@ SPOILS = {
     "open": ("import builtins; builtins.open = None", "changes builtins.open"),
     "len away": ("import builtins; del builtins.len", "changes builtins.len"),
     "import": ("import builtins; builtins.__import__ = lambda *a, **k: None", "changes builtins.__import__"),
-    "no numpy": ("import sys; sys.modules['numpy'] = None", "replaces the module numpy"),
+    "no numpy": ("import sys; sys.modules['numpy'] = None", "the module numpy"),
     "no numpy any more": (
         "import numpy, sys; sys.modules['numpy'] = None",
         "replaces or removes the module numpy",
@@ -103,6 +103,69 @@ SPOILS = {
     ),
     "environment": ("import os; os.environ.clear()", "removes PATH from the environment"),
     "priority": ("import os; os.nice(5)", "changes the priority"),
+    "cores": (
+        "import os\nmask = sorted(os.sched_getaffinity(0))\nos.sched_setaffinity(0, mask[:1])\n"
+        "if len(mask) == 1: raise OSError('changes the cores')",
+        "changes the cores",
+    ),
+    "audits": (
+        "import sys\ndef hook(event, args):\n if event == 'open': raise RuntimeError\nsys.addaudithook(hook)",
+        "listens to all that Python does (sys.addaudithook)",
+    ),
+    "quiet audits": ("import sys; sys.addaudithook(lambda *a: None)", "sys.addaudithook"),
+    "setting": (
+        "import os; os.environ['MECHWRIGHT_PLUGIN_SECONDS'] = 'x'",
+        "changes MECHWRIGHT_PLUGIN_SECONDS",
+    ),
+    "a shop": ("import os; os.environ['MECHWRIGHT_SHOP'] = '/none'", "changes MECHWRIGHT_SHOP"),
+    "another system": ("import sys; sys.platform = 'win32'", "changes sys.platform"),
+    "another name of the system": ("import os; os.name = 'nt'", "changes os.name"),
+    "another interpreter": ("import sys; sys.executable = '/none'", "changes sys.executable"),
+    "pi": ("import math; math.pi = 3", "changes math.pi"),
+    "pi of numpy": ("import numpy; numpy.pi = 3.0", "changes numpy.pi"),
+    "types only": ("import typing; typing.TYPE_CHECKING = True", "changes typing.TYPE_CHECKING"),
+    "code": ("import json; json.dumps.__code__ = (lambda *a, **k: '').__code__", "changes json.dumps"),
+    "defaults": ("import json; json.dumps.__kwdefaults__['indent'] = 7", "changes json.dumps"),
+    "a method in a derived class": (
+        "import pathlib; pathlib.PosixPath.read_bytes = lambda self: b''",
+        "changes pathlib.PosixPath.read_bytes",
+    ),
+    "an attribute asked for": (
+        "from mechwright.contracts.part import Part; Part.__getattribute__ = lambda s, n: 1 / 0",
+        "contracts.part.Part.__getattribute__",
+    ),
+    "a name of Python hidden": (
+        "import mechwright.reading as r; r.len = lambda x: 0",
+        "hides len of Python in mechwright.reading",
+    ),
+    "a constant of ours": (
+        "import mechwright.reading as r; r.INPUT_LIMIT = 1",
+        "changes mechwright.reading.INPUT_LIMIT",
+    ),
+    "a field of ours": (
+        "from mechwright.tolerances import TOLERANCES; object.__setattr__(TOLERANCES, 'gouge', 1.0)",
+        "changes mechwright.tolerances.TOLERANCES",
+    ),
+    "materials": (
+        "import mechwright.contracts.materials as m; m.MATERIALS.clear()",
+        "contracts.materials.MATERIALS",
+    ),
+    "a built-in family": (
+        "import mechwright_slider_crank.family as f; f.SliderCrankFamily.check = lambda s, p: []",
+        "mechwright_slider_crank",
+    ),
+    "a finder that fails": (
+        "import sys\nclass F:\n def find_spec(n, p=None, t=None):\n  if n == 'scipy': 1 / 0\nsys.meta_path.insert(0, F)",
+        "keeps scipy from being imported (ZeroDivisionError)",
+    ),
+    "a module in the place of another": (
+        "import sys, tempfile, pathlib\np = pathlib.Path(tempfile.mkdtemp()); (p / 'pyarrow.py').touch()\n"
+        "sys.path.insert(0, str(p))",
+        "puts another module in the place of pyarrow",
+    ),
+    "a place that is no text": ("import sys; sys.path.append(None)", "puts None into sys.path"),
+    "kinds": ("import collections.abc; collections.abc.Mapping.register(str)", "changes kinds of types"),
+    "numbers": ("import numbers; numbers.Real.register(str)", "changes kinds of types"),
 }
 """Those that spoil it."""
 
@@ -115,8 +178,14 @@ HEALED = {
     "changes the folder": "import os; os.chdir('/')",
     "ignores the keyboard": "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)",
     "more calls": "import sys; sys.setrecursionlimit(9000)",
+    "prints garbage": "import gc; gc.set_debug(gc.DEBUG_COLLECTABLE)",
+    "listens to the collector": "import gc; gc.callbacks.append(lambda *a: 1 / 0)",
+    "a path at the end": "import sys; sys.path.append('/none')",
+    "a finder of its own": "import sys\nclass F:\n def find_spec(n, p=None, t=None): pass\nsys.meta_path.append(F)",
+    "a variable": "import os; os.environ['RODS'] = '1'",
+    "a kind of its own": "import numbers\nclass N: pass\nnumbers.Real.register(N)",
 }
-"""What the guard sets back: such a plugin is used."""
+"""What the guard sets back, and what disturbs nobody: such a plugin is used."""
 
 FAMILY = """
 from mechwright import Family, Parameters, hookimpl

@@ -6,6 +6,7 @@ It comes from the poses alone, so that it is there for every family.
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from mechwright.arrays import Array
@@ -20,6 +21,9 @@ SWING = 1e-6
 
 RESTS = 1e-4
 """An instant centre that moves less, mm, is a pivot, and nothing to be shown."""
+
+STANDS = 1e-3
+"""A body whose velocities are a smaller part of its greatest stands; what they give there is rounding."""
 
 
 def independent_variable(motion: Motion) -> tuple[Array, bool]:
@@ -56,11 +60,21 @@ def body_motion(poses: Poses, over: Array, *, comes_back: bool) -> BodyMotion:
     return BodyMotion(PointMotion.of(place, vx + 1j * vy, ax + 1j * ay), Turning.of(angle, w, al))
 
 
+def standstill(body: BodyMotion) -> NDArray[np.bool_]:
+    """Where a body (n,) stands: neither its origin moves, nor does it turn.
+
+    The instant centre is the acceleration pole there: with v = w x r and w = 0, both are where a = α x r.
+    """
+    moves, turns = np.abs(body.origin.velocity), np.abs(body.turning.omega)
+    still: NDArray[np.bool_] = (moves <= STANDS * moves.max()) & (turns <= STANDS * turns.max())
+    return still
+
+
 def instants(motion: Motion) -> list[dict[str, Any]]:
     """Of each body that turns about no pivot: instant centre, acceleration pole, inflection pole (n,), mm.
 
-    Coordinates are those of the ground; what is at infinity is None. ``pose`` is the body's x, y and angle,
-    with which a page brings them into the body.
+    Coordinates are those of the ground. What is at infinity is None, as is the inflection pole of a body that
+    stands. ``pose`` is the body's x, y and angle, with which a page brings them into the body.
     """
     over, comes_back = independent_variable(motion)
     if len(over) < 5 or not (np.diff(over) > 0).all():
@@ -73,13 +87,13 @@ def instants(motion: Motion) -> list[dict[str, Any]]:
         body = body_motion(poses, over, comes_back=comes_back)
         if np.ptp(body.turning.theta) < SWING:
             continue
-        known = circles(body)
+        known, stands = circles(body), standstill(body)
         if np.nanmax(np.abs(known.instant_centre - known.instant_centre[0]), initial=0.0) < RESTS:
             continue
         marks = {
-            "centre": known.instant_centre,
+            "centre": np.where(stands, acceleration_pole(body).fixed, known.instant_centre),
             "pole": acceleration_pole(body).fixed,
-            "opposite": known.inflection_pole,
+            "opposite": np.where(stands, complex(np.nan, np.nan), known.inflection_pole),
         }
         pose = [body.origin.position.real, body.origin.position.imag, body.turning.theta]
         found.append(

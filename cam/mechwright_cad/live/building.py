@@ -60,7 +60,7 @@ class Building:
         self._listen(self._process)
 
     def _started(self) -> "subprocess.Popen[str]":
-        words = ["build", str(self._path), "-o", str(self.folder)]
+        words = ["build", "-o", str(self.folder), "--", str(self._path)]
         return subprocess.Popen(  # noqa: S603 - our own interpreter and a file that the user named
             [sys.executable, "-P", "-c", COMMAND, str(os.getpid()), *words],
             stdin=subprocess.DEVNULL,

@@ -22,6 +22,8 @@ HEADERS = {
 }
 """Of every answer: the page loads nothing from elsewhere, and nobody shows it in a frame."""
 
+_ONCE = ("host", "origin", "cookie")
+"""Headers by which a request is judged: of two a client and this server may each take another one."""
 MOST = 2_000_000
 """Bytes of a request."""
 
@@ -43,7 +45,11 @@ class Guard:
         """One request; what is no HTTP is turned away."""
         if scope["type"] != "http":
             return
-        headers = {key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]}
+        pairs = [(key.decode("latin-1"), value.decode("latin-1")) for key, value in scope["headers"]]
+        headers = dict(pairs)
+        if any(sum(key == name for key, _ in pairs) > 1 for name in _ONCE):
+            await _refuse(send, 400, b"a header stands twice\n")
+            return
         if scope["path"] == f"/{ENTRY}" and scope["method"] == "POST" and headers.get("host") in self._hosts:
             await self._enter(receive, send)
             return

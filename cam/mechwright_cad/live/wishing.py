@@ -15,6 +15,7 @@ from mechwright.designs.inches import units_of
 from mechwright.designs.requirement import Requirement, load_requirement, requirement_of
 from mechwright.errors import DesignError
 from mechwright.plugins.host import Host
+from mechwright.shell import file_word
 from mechwright_cad.live import answers
 from mechwright_cad.live.fields import fields_of_requirement
 from mechwright_cad.live.following import Answering, Asked, Change, Following, change_of, text_of
@@ -122,7 +123,8 @@ class Wishing(Following):
         """Write a design that was found to a file beside the requirement."""
         text, name = self._text_of(body), text_of(body, "name")
         said = self.write(name, rewritten(text, {"name": name}))
-        return {"said": f"{said}; mechwright live {self.path.with_name(name)}.toml shows it"}
+        file = file_word(self.path.with_name(f"{name}.toml"))
+        return {"said": f"{said}; mechwright live {file} shows it"}
 
     def _text_of(self, body: Asked) -> str:
         name = text_of(body, "design")

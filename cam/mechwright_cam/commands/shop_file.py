@@ -6,6 +6,7 @@ from typing import get_args
 import typer
 
 from mechwright.cli.hosting import open_host
+from mechwright.cli.telling import echo
 from mechwright.designs.files import read_toml
 from mechwright.designs.inches import Units
 from mechwright.designs.tables import unknown
@@ -39,4 +40,4 @@ def shop_file(
     lines = [f"{output}: written, {len(tools.tools)} tools; take out what you do not have"]
     lines += [f"note {line}" for line in tools.told]
     lines.append("for an editor that completes and checks it: mechwright schema shop -o shop.schema.json")
-    typer.echo("\n".join(lines))
+    echo(*lines)

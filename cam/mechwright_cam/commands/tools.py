@@ -9,6 +9,7 @@ import typer
 
 from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
+from mechwright.cli.telling import echo
 from mechwright.contracts.finding import errors
 from mechwright.designs.design import Design, load
 from mechwright.designs.inches import Units
@@ -60,7 +61,7 @@ def tools(
     if target is not None:
         lines += [f"{file}: written" for file in files] if len(files) < MANY else _few(files)
         lines += [f"note {target} {line}" for line in lost]
-    typer.echo("\n".join(lines))
+    echo(*lines)
 
 
 MANY = 4

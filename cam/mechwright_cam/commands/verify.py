@@ -11,6 +11,7 @@ import typer
 from mechwright.cli.hosting import open_host
 from mechwright.cli.perform import refuse
 from mechwright.cli.progress import fraction
+from mechwright.cli.telling import echo
 from mechwright.contracts.finding import errors
 from mechwright.contracts.synthesis import Progress
 from mechwright.designs.files import SIZE_LIMIT, read_text
@@ -109,12 +110,12 @@ def report_proof(scene: Scene, proof: Proof, program: str, report: Report) -> No
     else:
         for check in proof.checks.values():
             if check.passed:
-                typer.echo(f"pass [{check.name}] {check.message}")
+                echo(f"pass [{check.name}] {check.message}")
         for note in proof.notes:
-            typer.echo(f"note {note}")
+            echo(f"note {note}")
         for check in proof.failures:
-            typer.echo(f"mechwright: {program}: FAIL [{check.name}] {check.message}", err=True)
-        typer.echo(f"{program}: " + ("proven" if proof.ok else "does not cut the part"))
+            echo(f"mechwright: {program}: FAIL [{check.name}] {check.message}", err=True)
+        echo(f"{program}: " + ("proven" if proof.ok else "does not cut the part"))
     raise typer.Exit(0 if proof.ok else 1)
 
 

@@ -11,6 +11,7 @@ from mechwright.contracts.finding import Finding, Severity, Stage, at_stage, err
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, ToolError
+from mechwright.shell import file_word
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
@@ -246,7 +247,7 @@ def _incomplete(library: Library, path: Path) -> Iterator[Finding]:
     if library.told:
         message = (
             f"of the library not all is taken over as it stands ({len(library.told)} remarks); "
-            f"mechwright tools {path} lists them"
+            f"mechwright tools {file_word(path)} lists them"
         )
         yield Finding("cam.tool-library", Severity.NOTE, "cam.tool_library", message)
 

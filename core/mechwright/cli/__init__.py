@@ -3,6 +3,8 @@
 import atexit
 import os
 import sys
+from contextlib import suppress
+from typing import NoReturn
 
 
 def main() -> None:
@@ -18,9 +20,15 @@ def main() -> None:
 
         if not threads_left():
             raise
-        atexit._run_exitfuncs()
+        leave(error.code)
+
+
+def leave(code: object) -> NoReturn:
+    """End the process with an exit code, and delete no object: one of a plugin might change the code."""
+    atexit._run_exitfuncs()
+    with suppress(OSError, ValueError):
         sys.stderr.flush()
-        os._exit(error.code if isinstance(error.code, int) else int(error.code is not None))
+    os._exit(code if isinstance(code, int) else int(code is not None))
 
 
 def _stoppable() -> None:
@@ -47,7 +55,8 @@ def _run() -> None:
     warnings.showwarning = failure.warned
     try:
         try:
-            make_app()()
+            with failure.errors_in_lines():
+                make_app()()
         finally:
             _flush()
     except SystemExit as error:

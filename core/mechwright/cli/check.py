@@ -8,7 +8,7 @@ import typer
 
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
-from mechwright.cli.telling import plain, tell
+from mechwright.cli.telling import echo, tell
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import DesignError
 from mechwright.pipeline import Wanted
@@ -49,10 +49,10 @@ def check(
         for finding in shown(findings):
             tell(finding)
         if figures:
-            typer.echo("\n".join(table(findings)))
+            echo(*table(findings))
         if analysis is not None:
-            typer.echo("\n".join(as_text(analysis)))
-        typer.echo(f"{path}: {verdict(to, open_, failed=failed)}")
+            echo(*as_text(analysis))
+        echo(f"{path}: {verdict(to, open_, failed=failed)}")
     raise typer.Exit(1 if failed else 0)
 
 
@@ -90,4 +90,4 @@ def table(findings: Iterable[Finding]) -> list[str]:
         for one in notes
     ]
     wide = [max((len(row[column]) for row in rows), default=0) for column in range(2)]
-    return [plain(f"{code:<{wide[0]}}  {value:>{wide[1]}}  {said}") for code, value, said in rows]
+    return [f"{code:<{wide[0]}}  {value:>{wide[1]}}  {said}" for code, value, said in rows]

@@ -6,14 +6,14 @@ import webbrowser
 from importlib.resources import files
 from pathlib import Path
 
-import typer
-
 from mechwright.cli.perform import perform
+from mechwright.cli.telling import echo
 from mechwright.designs.files import read_text
 from mechwright.errors import MechwrightError, OutputError
 from mechwright.output.folder import write_new
 from mechwright.pipeline import Wanted
 from mechwright.reading import regular
+from mechwright.shell import file_word
 
 DESIGN = "elliptic-pair.toml"
 """The example's name in its folder; in the package it is ``demo.toml``."""
@@ -36,11 +36,14 @@ def demo(folder: Path, show: bool | None) -> None:
     out = folder / "out"
     perform(path, out, Wanted("build"))
     page = out / SHOWN
-    typer.echo(f"go on with: mechwright check {path}, or change it and: mechwright build {path} -o {out}")
+    file = file_word(path)
+    echo(
+        f"go on with: mechwright check {file}, or change it and: mechwright build {file} -o {file_word(out)}"
+    )
     if (show if show is not None else sys.stdout.isatty()) and _open(page):
-        typer.echo(f"{page}: opened in the browser")
+        echo(f"{page}: opened in the browser")
     else:
-        typer.echo(f"{page}: open it in a browser")
+        echo(f"{page}: open it in a browser")
 
 
 def _place(path: Path, text: str) -> None:
@@ -54,7 +57,7 @@ def _place(path: Path, text: str) -> None:
     if path.exists():
         raise OutputError(
             f"{path}: is there already and has been changed; give another folder, or: "
-            f"mechwright build {path} -o {path.parent / 'out'}"
+            f"mechwright build {file_word(path)} -o {file_word(path.parent / 'out')}"
         )
     write_new(path, text)
 

@@ -1,16 +1,24 @@
 """What the command line says when something fails: one line each, also for a fault that nobody expected."""
 
 import os
+import sys
+import threading
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from mechwright.cli.streams import say
+from mechwright.cli.streams import plain, say
 from mechwright.contracts.guard import described, now
 from mechwright.errors import MechwrightError, PluginFaultError, shortened
 
 TRACEBACK = "MECHWRIGHT_TRACEBACK"
 """Environment variable; if it is not empty, an unexpected fault prints its traceback as well."""
 
+MOST_WARNINGS = 100
+"""Warnings of Python's that a command says: one in a loop would hide what else is said."""
+_warned: list[str] = []
+"""Those that were said, and a mark for each that was not."""
 _NO_ROOM = "failed to map segment"
 """What the loader says of a library for which there is no memory."""
 
@@ -18,7 +26,7 @@ _NO_ROOM = "failed to map segment"
 def lines(error: BaseException) -> list[str]:
     """Say what went wrong; a character that is not printable, which could steer a terminal, is escaped."""
     said = str(error) if isinstance(error, MechwrightError) else shortened(_unexpected(error))
-    shown = [_printable(line) for line in said.splitlines()]
+    shown = [plain(line) for line in said.splitlines()]
     if os.environ.get(TRACEBACK) and (
         isinstance(error, PluginFaultError) or not isinstance(error, MechwrightError)
     ):
@@ -35,13 +43,43 @@ def warned(
     line: object = None,  # noqa: ARG001
 ) -> None:
     """Say a warning of Python's in a line, with the call into a plugin that is under way."""
+    if len(_warned) >= MOST_WARNINGS:
+        if len(_warned) == MOST_WARNINGS:
+            say("mechwright: warning: there are more warnings, which are omitted")
+        _warned.append("")
+        return
     who = now() or "this program"
-    said = _printable(shortened(" ".join(f"{category.__name__}: {message}".split())))
-    say(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})")
+    said = plain(shortened(" ".join(f"{category.__name__}: {message}".split())))
+    _warned.append(f"mechwright: warning: {who}: {said} ({Path(filename).name}, line {lineno})")
+    say(_warned[-1])
 
 
-def _printable(line: str) -> str:
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+@contextmanager
+def errors_in_lines() -> Iterator[None]:
+    """Say each error that nobody catches in a line: of what is deleted or collected, and of threads.
+
+    Such errors end nothing. Python prints a traceback each time.
+    """
+    _warned.clear()
+    before, told = (sys.unraisablehook, threading.excepthook), set[str]()
+
+    def say_once(error: BaseException | None, what: str) -> None:
+        if error is None or isinstance(error, SystemExit):
+            return
+        who = f"{now()}: " if now() else ""
+        line = plain(shortened(f"mechwright: warning: {who}{what}: {described(error)}"))
+        if line not in told:
+            told.add(line)
+            say(line)
+
+    sys.unraisablehook = lambda args: say_once(args.exc_value, "an error that ends nothing")
+    threading.excepthook = lambda args: say_once(
+        args.exc_value, f"the thread {args.thread.name if args.thread else ''!r} ended by an error"
+    )
+    try:
+        yield
+    finally:
+        sys.unraisablehook, threading.excepthook = before
 
 
 def _unexpected(error: BaseException) -> str:

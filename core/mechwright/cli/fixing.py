@@ -11,7 +11,8 @@ import typer
 from mechwright.cli.check import stage_of
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
-from mechwright.cli.telling import tell
+from mechwright.cli.streams import plain
+from mechwright.cli.telling import echo, tell
 from mechwright.contracts.finding import Change, Stage
 from mechwright.designs.bounded_toml import require_rewritable
 from mechwright.designs.change import changed, rewritten
@@ -95,29 +96,29 @@ def _say(path: Path, target: Path | None, repair: Repair, text: str, new: str) -
     if repair.change is None:
         for finding in repair.left:
             tell(finding)
-        typer.echo(
+        echo(
             f"{path}: cannot be built, and no change of at most {MOST_CHANGES} keys was found with which it "
             f"can, in {repair.bench.tries} tries"
         )
         if repair.nearest is not None:
-            typer.echo(f"the nearest design that can is another in {len(repair.nearest)} keys:")
+            echo(f"the nearest design that can is another in {len(repair.nearest)} keys:")
             for line in each(repair.bench, repair.nearest):
-                typer.echo(f"  {line}")
+                echo(f"  {line}")
         return
     if not repair.change:
-        typer.echo(f"{path}: can be built as it is" + (f"; written to {target}" if target else ""))
+        echo(f"{path}: can be built as it is" + (f"; written to {target}" if target else ""))
         return
     for finding in repair.found:
         tell(replace(finding, remedy=""))  # what was tried follows
     for line in each(repair.bench, repair.change):
-        typer.echo(_styled(line, typer.colors.GREEN))
+        typer.echo(_styled(plain(line), typer.colors.GREEN))
     shown = difflib.unified_diff(
         text.splitlines(), new.splitlines(), str(path), str(target or path), lineterm=""
     )
     for line in shown:
-        typer.echo(_coloured(line))
+        typer.echo(_coloured(plain(line.expandtabs())))
     done = "written" if target else "nothing was written, -o FILE or --write does"
-    typer.echo(f"{target or path}: can be built with this; {done}")
+    echo(f"{target or path}: can be built with this; {done}")
 
 
 def _coloured(line: str) -> str:

@@ -1,7 +1,6 @@
 """The host as the command line opens it."""
 
-import typer
-
+from mechwright.cli.telling import echo
 from mechwright.plugins.host import Host, host
 
 
@@ -16,4 +15,4 @@ def open_host(*, warn: bool = True) -> Host:
 def warn_broken(found: Host) -> None:
     """Name the plugins that could not be used, on standard error."""
     for broken in found.broken:
-        typer.echo(f"mechwright: warning: {broken}", err=True)
+        echo(f"mechwright: warning: {broken}", err=True)

@@ -7,6 +7,7 @@ from typing import Any
 import typer
 
 from mechwright.cli.hosting import open_host
+from mechwright.cli.telling import echo
 from mechwright.contracts.family import Family
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.table import Table
@@ -18,6 +19,7 @@ from mechwright.designs.text import requirement_template, template
 from mechwright.errors import DesignError
 from mechwright.output.folder import write_new
 from mechwright.plugins.host import Registered
+from mechwright.shell import file_word
 
 
 def families(as_json: bool) -> None:
@@ -39,12 +41,12 @@ def families(as_json: bool) -> None:
         typer.echo(json.dumps(listing, indent=2))
         return
     for name, entry in sorted(found.of(Family).items()):
-        typer.echo(f"{name}  ({entry.distribution})\n    {entry.item.title}: {entry.item.summary}")
+        echo(f"{name}  ({entry.distribution})", f"    {entry.item.title}: {entry.item.summary}")
         if entry.item.requirements:
-            typer.echo(f"    synthesis: {', '.join(entry.item.requirements)}")
+            echo(f"    synthesis: {', '.join(entry.item.requirements)}")
     width = max(map(len, others), default=0)
     for plural, names in others.items():
-        typer.echo(f"{plural + ':':{width + 1}} {', '.join(names)}")
+        echo(f"{plural + ':':{width + 1}} {', '.join(names)}")
 
 
 def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
@@ -79,12 +81,13 @@ def new(name: str, kind: str, source: str, output: Path | None, force: bool, who
         typer.echo(text, nl=False)
     else:
         write_new(output, text, replace=force)
-        typer.echo(f"{output}: written; go on with: {command} {output} -o out")
+        echo(f"{output}: written; go on with: {command} {file_word(output)} -o out")
         option = " --requirement" if kind else ""
         file = output.with_name(schema_name(name, requirement=bool(kind)))
         if not file.exists():
-            typer.echo(
-                f"for an editor that completes and checks it: mechwright schema {name}{option} -o {file}"
+            echo(
+                f"for an editor that completes and checks it: mechwright schema {name}{option} "
+                f"-o {file_word(file)}"
             )
 
 
@@ -122,6 +125,4 @@ def schema(name: str, requirement: bool, study: bool, output: Path | None, force
         typer.echo(text, nl=False)
     else:
         write_new(output, text, replace=force)
-        typer.echo(
-            f"{output}: written; editors look for it where the first line of a file says: #:schema FILE"
-        )
+        echo(f"{output}: written; editors look for it where the first line of a file says: #:schema FILE")

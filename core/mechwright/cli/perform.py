@@ -67,7 +67,7 @@ def say(path: Path, stage: Stage, written: Written, *, files: bool = True) -> No
             + ("; mechwright fix looks for a change that helps" if written.later else ""),
         )
     if files:
-        typer.echo(f"{written.folder}: {len(written.files)} files written: {', '.join(written.files)}")
+        telling.echo(f"{written.folder}: {len(written.files)} files written: {', '.join(written.files)}")
 
 
 def data_of(name: str, said: Written, *, ok: bool, written: bool = True) -> dict[str, Any]:
@@ -112,4 +112,4 @@ def tell(path: Path, words: object) -> None:
     if isinstance(words, Finding):
         telling.tell(words, err=True, path=path)
     else:
-        typer.echo(f"mechwright: {path}: {words}", err=True)
+        telling.echo(f"mechwright: {path}: {words}", err=True)

@@ -16,7 +16,7 @@ from mechwright.cli.orders import Order, Outcome, done, into, killed
 from mechwright.cli.perform import check_formats, data_of, perform, say
 from mechwright.cli.progress import fraction, stamp
 from mechwright.cli.stopping import StoppedError
-from mechwright.cli.telling import plain, tell
+from mechwright.cli.telling import echo, tell
 from mechwright.contracts.finding import Stage
 from mechwright.errors import DesignError
 from mechwright.output.folder import check_folder
@@ -121,9 +121,8 @@ def _run(
         raise typer.Exit(int(bool(failed)))
     for one in outcomes:
         say_one(one)
-    for line in _table(outcomes, words):
-        typer.echo(line)
-    typer.echo(f"{len(outcomes)} designs: {len(outcomes) - failed} {words[0]}, {failed} {words[1]}{remark}")
+    echo(*_table(outcomes, words))
+    echo(f"{len(outcomes)} designs: {len(outcomes) - failed} {words[0]}, {failed} {words[1]}{remark}")
     raise typer.Exit(int(bool(failed)))
 
 
@@ -154,7 +153,7 @@ def _standing(orders: Sequence[Order], before: dict[Path, Any], folder: Path) ->
 
 def _say_written(outcome: Outcome) -> None:
     if not outcome.said.findings and outcome.fault:
-        typer.echo(f"mechwright: {_located(outcome)}", err=True)
+        echo(f"mechwright: {_located(outcome)}", err=True)
     elif outcome.ok:
         say(outcome.order.path, outcome.order.wanted.extent.stage, outcome.said, files=False)
     else:
@@ -163,7 +162,7 @@ def _say_written(outcome: Outcome) -> None:
 
 def _say_checked(outcome: Outcome) -> None:
     if outcome.fault:
-        typer.echo(f"mechwright: {_located(outcome)}", err=True)
+        echo(f"mechwright: {_located(outcome)}", err=True)
     _say_findings(outcome)
 
 
@@ -193,5 +192,4 @@ def _table(outcomes: Sequence[Outcome], words: tuple[str, str]) -> list[str]:
         (str(one.order.path), words[not one.ok], f"{one.seconds:.1f}", one.reason) for one in outcomes
     ]
     wide = [max(len(row[column]) for row in rows) for column in range(3)]
-    lines = [f"{a:<{wide[0]}}  {b:<{wide[1]}}  {c:>{wide[2]}}  {d}".rstrip() for a, b, c, d in rows]
-    return [plain(line) for line in lines]
+    return [f"{a:<{wide[0]}}  {b:<{wide[1]}}  {c:>{wide[2]}}  {d}".rstrip() for a, b, c, d in rows]

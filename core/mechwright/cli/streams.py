@@ -29,6 +29,15 @@ def say(line: str) -> None:
         silent(sys.stderr.fileno())
 
 
+def plain(words: str) -> str:
+    r"""Words with each character that is not printable, which could steer a terminal, escaped.
+
+    >>> print(plain("a\x1b[31m.toml"))
+    a\x1b[31m.toml
+    """
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in words)
+
+
 def silent(number: int) -> None:
     """Let a stream lead nowhere: the interpreter tries once more at its end, and would complain again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), number)

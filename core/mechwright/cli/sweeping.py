@@ -10,6 +10,7 @@ from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction
 from mechwright.cli.stopping import StoppedError, deaf
 from mechwright.cli.streams import say
+from mechwright.cli.telling import echo
 from mechwright.errors import MechwrightError
 from mechwright.studies.run import Swept, evaluate
 from mechwright.studies.standing import Standing
@@ -52,15 +53,15 @@ def _say(folder: Path, found: Swept) -> None:
     counts = found.counts
     if not counts.feasible:
         first = max(counts.forbidden.items(), key=lambda one: one[1])
-        typer.echo(
+        echo(
             f"mechwright: no design is allowed: [{first[0]}] forbids {first[1]:,} of {counts.designs:,}; "
             "widen the ranges or ease the constraints",
             err=True,
         )
     for one in found.chosen:
         told = ", ".join(f"{name} {_shown(value)}" for name, value in one.figures.items())
-        typer.echo(f"{one.name}.toml: {told}" if one.name else f"design {one.design}: refused: {one.refused}")
-    typer.echo(f"{folder}: {found}; {', '.join(found.files)}")
+        echo(f"{one.name}.toml: {told}" if one.name else f"design {one.design}: refused: {one.refused}")
+    echo(f"{folder}: {found}; {', '.join(found.files)}")
 
 
 def _shown(value: object) -> str:

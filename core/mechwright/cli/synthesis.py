@@ -8,6 +8,7 @@ import typer
 
 from mechwright.cli.hosting import open_host
 from mechwright.cli.progress import fraction, standing
+from mechwright.cli.telling import echo
 from mechwright.contracts.finding import Severity, errors
 from mechwright.contracts.synthesis import BEYOND, Candidate, Reason
 from mechwright.designs.requirement import load_requirement
@@ -33,27 +34,27 @@ def synthesize(path: Path, folder: Path, as_json: bool, minutes: bool) -> None:
         raise typer.Exit(int(failed))
     for finding in found.result.findings:
         if finding.severity is not Severity.NOTE:
-            typer.echo(f"mechwright: {path}: {finding}", err=True)
+            echo(f"mechwright: {path}: {finding}", err=True)
     if failed:
-        typer.echo(f"mechwright: {path}: {found.told}", err=True)
+        echo(f"mechwright: {path}: {found.told}", err=True)
         _tell_reasons(found.result.rejected, err=True)
         raise typer.Exit(1)
     for (name, _), candidate in zip(found.texts, found.result.candidates, strict=True):
-        typer.echo(f"{name}.toml: {_line(candidate)}")
+        echo(f"{name}.toml: {_line(candidate)}")
     for finding in found.result.findings:
         if finding.severity is Severity.NOTE:
-            typer.echo(str(finding))
-    typer.echo(found.told)
+            echo(str(finding))
+    echo(found.told)
     _tell_reasons(found.result.rejected)
     many = f"{len(found)} design{'s' * (len(found) != 1)}"
-    typer.echo(f"{folder}: {many} written, best first, gallery.html and synthesis.json")
+    echo(f"{folder}: {many} written, best first, gallery.html and synthesis.json")
 
 
 def _tell_reasons(reasons: Sequence[Reason], *, err: bool = False) -> None:
     """What speaks against the designs that are not given, in the words of the first of each kind."""
     for reason in reasons:
         first = "" if reason.count == 1 or reason.code == BEYOND else ", the first"
-        typer.echo(f"  {reason}{first}: {reason.message}", err=err)
+        echo(f"  {reason}{first}: {reason.message}", err=err)
 
 
 def _line(candidate: Candidate[object]) -> str:  # type: ignore[type-var]

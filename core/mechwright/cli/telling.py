@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from mechwright.cli.streams import plain
 from mechwright.contracts.finding import Finding, Severity
 
 if TYPE_CHECKING:
@@ -16,10 +17,16 @@ _REMEDY = "green"
 _INDENT = 2
 
 
+def echo(*lines: str, err: bool = False) -> None:
+    """Print lines, each of them one line on any terminal whatever names of files and plugins stand in it."""
+    for line in lines:
+        typer.echo(plain(line), err=err)
+
+
 def tell(finding: Finding, *, err: bool = False, path: Path | None = None) -> None:
     """Say a finding, on standard error or output; in a pipe it begins with ``path``, if that is given."""
     if not (sys.stderr if err else sys.stdout).isatty():
-        typer.echo(f"mechwright: {path}: {finding}" if path is not None else str(finding), err=err)
+        echo(f"mechwright: {path}: {finding}" if path is not None else str(finding), err=err)
         return
     from rich.console import Console
 
@@ -39,8 +46,3 @@ def block(finding: Finding, console: "Console") -> None:
     for words, style in ((finding.message, ""), (finding.remedy, _REMEDY)):
         if words:
             console.print(Padding(Text(plain(words), style), (0, 0, 0, _INDENT), expand=False))
-
-
-def plain(words: str) -> str:
-    """Without characters that could steer a terminal."""
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in words)

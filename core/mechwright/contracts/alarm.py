@@ -1,6 +1,8 @@
 """A time for a piece of work in the main thread: by the system's alarm, or by a thread where it has none."""
 
+import contextlib
 import ctypes
+import os
 import signal
 import threading
 import time
@@ -14,13 +16,17 @@ class TimeUpError(BaseException):
 
 _watched: list[bool] = []
 """Whether a thread watches the time of a call."""
+AGAIN, MOST_CAUGHT = 1.0, 5
+"""Seconds from one alarm to the next of work that has caught the first, and how many it may catch."""
 _SETTLED = 0.1
 """Seconds within which an error that was sent to a thread has come there."""
 
 
 @contextmanager
-def in_time(seconds: float) -> Iterator[None]:
+def in_time(seconds: float, who: str = "") -> Iterator[None]:
     """Raise TimeUpError after some seconds, where this is the main thread.
+
+    Work that catches that error again and again ends the process, with a line that begins with ``who``.
 
     A call inside of another one has what that has left. Without an alarm, on Windows, a thread sends it,
     which comes when a line of Python is done, and not in the middle of a long wait.
@@ -34,7 +40,7 @@ def in_time(seconds: float) -> Iterator[None]:
         return
     over: list[bool] = []
     try:
-        with _alarm(seconds, over) if alarm else _watch(seconds, over):
+        with _alarm(seconds, over, who) if alarm else _watch(seconds, over):
             yield
     except KeyboardInterrupt:
         raise
@@ -49,14 +55,18 @@ def _words(seconds: float) -> str:
 
 
 @contextmanager
-def _alarm(seconds: float, over: list[bool]) -> Iterator[None]:
+def _alarm(seconds: float, over: list[bool], who: str) -> Iterator[None]:
     def up(*_: object) -> None:
         over.append(True)
+        if len(over) > MOST_CAUGHT:
+            with contextlib.suppress(OSError):
+                os.write(2, f"mechwright: {who}: {_words(seconds)} and catches what ends it\n".encode())
+            os._exit(2)
         raise TimeUpError(_words(seconds))
 
     before = signal.signal(signal.SIGALRM, up)
     try:
-        signal.setitimer(signal.ITIMER_REAL, seconds)
+        signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
         yield
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)

@@ -194,6 +194,10 @@ def _filters(was: list[Any]) -> None:
     warnings._filters_mutated()  # type: ignore[attr-defined]
 
 
+def _callbacks(was: list[Any]) -> None:
+    gc.callbacks[:] = was
+
+
 PIECES: tuple[Piece, ...] = (
     Piece("standard output or standard error", _streams, _put_back),
     Piece("the filters of warnings", lambda: list(warnings.filters), _filters, by_loading=True),
@@ -207,6 +211,8 @@ PIECES: tuple[Piece, ...] = (
     Piece("the limit of recursion", sys.getrecursionlimit, sys.setrecursionlimit),
     Piece("the limit of digits", sys.get_int_max_str_digits, sys.set_int_max_str_digits),
     Piece("whether garbage is collected", gc.isenabled, lambda was: gc.enable() if was else gc.disable()),
+    Piece("what is printed of garbage", gc.get_debug, gc.set_debug),
+    Piece("who is told of garbage", lambda: list(gc.callbacks), _callbacks),
     Piece(
         "the locale",
         lambda: locale.setlocale(locale.LC_ALL),

@@ -94,7 +94,7 @@ def watched(who: str, seconds: float, code: types.CodeType) -> Iterator[bool]:
     ours = _OURS in who
     ground = nullcontext() if ours else kept(code.co_filename, code.co_firstlineno)
     try:
-        with _aside(who), nullcontext() if ours else listening(), in_time(seconds), ground:
+        with _aside(who), nullcontext() if ours else listening(), in_time(seconds, who), ground:
             yield len(_inside) == 1
     except (MemoryError, KeyboardInterrupt):
         raise
@@ -173,7 +173,7 @@ def loading(who: str, module: str) -> Iterator[None]:
 
     Raises TimeUpError in the module.
     """
-    with _aside(who), listening(), in_time(LOADING), kept(f"{module}.py", 1):
+    with _aside(who), listening(), in_time(LOADING, who), kept(f"{module}.py", 1):
         yield
 
 
@@ -216,7 +216,8 @@ def described(error: BaseException) -> str:
         reason = " ".join(str(error).split())
     except Exception:  # words of its own may fail as well
         reason = ""
-    return (f"{type(error).__name__}: {reason}" if reason else type(error).__name__) + _at(error)
+    kind = " ".join(type(error).__name__.split())
+    return (f"{kind}: {reason}" if reason else kind) + _at(error)
 
 
 @contextmanager

@@ -42,6 +42,7 @@ from mechwright.errors import DesignError, GeometryError, PluginError
 from mechwright.mechanics.chain import Chain, ChainParams
 from mechwright.plugins.host import Host
 from mechwright.reading import once
+from mechwright.shell import file_word
 
 if TYPE_CHECKING:
     from mechwright.contracts.axial_stack import AxialStack
@@ -262,12 +263,13 @@ def _check_kind(content: Mapping[str, Any], path: Path, known: Set[str]) -> None
     if "requirement" in content and "parameters" not in content:
         raise DesignError(
             f"{path}: requirement: this file says what is asked of a design, and is none; find designs by "
-            f"mechwright synthesize {path.name} -o FOLDER, or in Python by mechwright.synthesize"
+            f"mechwright synthesize {file_word(path.name)} -o FOLDER, or in Python by mechwright.synthesize"
         )
     if "study" in content:
         raise DesignError(
-            f"{path}: study: this file is a study of many designs; sweep it by mechwright sweep {path.name} "
-            "-o FOLDER, which writes the designs of its front, or in Python by mechwright.sweep"
+            f"{path}: study: this file is a study of many designs; sweep it by mechwright sweep "
+            f"{file_word(path.name)} -o FOLDER, which writes the designs of its front, or in Python by "
+            "mechwright.sweep"
         )
     if not {"family", STAGE, "parameters"} & content.keys() and content.keys() - known:
         raise DesignError(

@@ -39,6 +39,7 @@ from mechwright.errors import DesignError
 from mechwright.mechanics.chain import Chain
 from mechwright.plugins.host import Host
 from mechwright.reading import once
+from mechwright.shell import file_word
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ def requirement_of(content: Mapping[str, Any], path: Path, digest: str, host: Ho
     if "parameters" in content and "requirement" not in content:
         raise DesignError(
             f"{path}: parameters: this file is a design, and asks for none; build it by mechwright build "
-            f"{path.name} -o FOLDER, or write what is asked in a table [requirement]"
+            f"{file_word(path.name)} -o FOLDER, or write what is asked in a table [requirement]"
         )
     keys = (*HEAD, "requirement", STAGE, *registered)
     family: Family[Any]

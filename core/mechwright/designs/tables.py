@@ -1,5 +1,6 @@
 """Tables of a design file against their models, and what is said of mistakes in them."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from itertools import islice
 from pathlib import Path
@@ -30,6 +31,9 @@ _LONG = 120
 _COUNTED = ("too_short", "too_long")
 """Errors of a list's length."""
 
+_KINDS = frozenset(("bool", "float", "int", "str"))
+"""By which pydantic tells the members of a union apart."""
+
 _SHORT = 40
 """Characters of a list or a table that a line shows."""
 
@@ -54,7 +58,13 @@ def read_table(model: type[T], table: object, source: str, where: str, path: Pat
 def _explain(error: ValidationError, model: type[BaseModel], where: str) -> Iterator[str]:
     items = error.errors(include_url=False)
     wrong = [item["loc"] for item in items]
+    unions = Counter(place[:-1] for place in wrong if place and place[-1] in _KINDS)
     for item in items:
+        if unions[item["loc"][:-1]] > 1 and item["loc"][-1] in _KINDS:  # a number or a text: told once
+            item["loc"] = item["loc"][:-1]
+            unions[item["loc"]] = -1
+        elif unions[item["loc"][:-1]] < 0:
+            continue
         if item["type"] == "too_short" and any(
             len(place) > len(item["loc"]) and place[: len(item["loc"])] == item["loc"] for place in wrong
         ):

@@ -16,6 +16,9 @@ TABLE, SUMMARY = "motion.csv", "summary.json"
 DIGITS = "%.10g"
 """Of numbers in both: the last digits that a sum of sines has are those of the processor."""
 
+NOTHING = 1e-15
+"""A figure below this is what rounding leaves of 0, whatever its unit."""
+
 ROWS = 1_000
 """Rows of a table that are written together."""
 
@@ -40,13 +43,22 @@ class MotionTables(Page):
         stretches = build.stretches()
         first = next(stretches)
         figures = {
-            name: {"value": float(DIGITS % scalar.value), "unit": scalar.unit}
+            name: {"value": shown(scalar.value), "unit": scalar.unit}
             for name, scalar in first.scalars.items()
         }
         return {
             TABLE: motion_csv(first, stretches),
             SUMMARY: json.dumps(figures, indent=2) + "\n",
         }
+
+
+def shown(value: float) -> float:
+    """A figure as the summary has it: ten significant digits.
+
+    >>> shown(1 / 3), shown(-2.1e-18), shown(2e-9)
+    (0.3333333333, 0.0, 2e-09)
+    """
+    return 0.0 if abs(value) < NOTHING else float(DIGITS % value)
 
 
 def motion_csv(motion: Motion, more: Iterable[Motion] = ()) -> Iterator[bytes]:

@@ -1,35 +1,59 @@
 """What loading a plugin may spoil for everybody else in a process, beside the ground that is set back.
 
-Files that are open, modules and what stands in them, limits, timers, threads: none of it can be set back with
-certainty, so a plugin that changes it is not used. It may add names, and change those that are private.
+Files that are open, modules and what stands in them, limits, timers, threads: none of it can be set back
+with certainty, so a plugin that changes it is not used. It may add names that hide no others, and change
+those that are private.
 """
 
+import builtins
+import dataclasses
 import importlib.abc
 import importlib.machinery
+import numbers
 import os
 import signal
 import sys
 import threading
 import types
+from collections import abc
 from collections.abc import Callable, Iterator, Sequence
+from importlib.metadata import distributions
+from itertools import product
 from typing import Any
 
-_LIBRARIES = sys.stdlib_module_names | {
-    *(
-        "mechwright",
-        "mechwright_cad",
-        "mechwright_cam",
-        "numpy",
-        "scipy",
-        "shapely",
-        "pydantic",
-        "pydantic_core",
-    ),
-    *("pluggy", "typer", "rich", "click", "ezdxf", "cadquery", "OCP", "jinja2", "numba", "pyarrow"),
-}
+from mechwright.plugins.host import BUILT_IN
+
+_OWN = frozenset(
+    (
+        BUILT_IN,
+        *(
+            point.module.partition(".")[0]
+            for one in distributions(name=BUILT_IN)
+            for point in one.entry_points
+        ),
+    )
+)
+"""Packages of this program."""
+_LIBRARIES = (
+    sys.stdlib_module_names
+    | _OWN
+    | {
+        *("numpy", "scipy", "shapely", "pydantic", "pydantic_core", "pluggy", "typer", "rich", "click"),
+        *("ezdxf", "cadquery", "OCP", "jinja2", "numba", "pyarrow"),
+    }
+)
 """Packages that this program uses, of which a plugin changes nothing."""
+_WITH_CONSTANTS = frozenset(("math", "cmath", "numpy", "os", "string", "sys"))
+"""Modules whose constants have small letters; those of others are known by their capitals."""
+_VARYING = frozenset(("ps1", "ps2", "dont_write_bytecode", "tracebacklimit"))
+"""Names of those modules that no constants stand under."""
+_PLAIN = (bool, int, float, complex, str, bytes, tuple, frozenset)
+_SETTINGS = "MECHWRIGHT_"
+"""How variables of the environment begin by which a user sets this program."""
 _OURS_TO_SET = frozenset((("sys", "stdout"), ("sys", "stderr"), ("warnings", "showwarning")))
 """Names that the guard itself sets back."""
+_LIBRARIES_SET = frozenset((("PathFinder", "find_distributions"),))
+"""Attributes of classes that libraries set while they are loaded: importlib_metadata, which pint brings."""
 _HOOKS = ("excepthook", "unraisablehook", "displayhook", "breakpointhook")
 
 
@@ -40,18 +64,22 @@ class Disturbance(importlib.abc.MetaPathFinder):
         self._modules: dict[str, types.ModuleType] = {}
         self._names: dict[str, dict[str, Any]] = {}
         self._classes: dict[type, dict[str, Any]] = {}
+        self._inner: dict[tuple[str, str], tuple[Any, ...]] = {}
+        self._hidden: dict[str, frozenset[str]] = {}
         for name, module in list(sys.modules.items()):
             self._note(name, module)
         self._files = _files()
-        self._process, self._environment = _process(), set(os.environ)
+        self._process, self._environment = _process(), dict(os.environ)
         self._threads = set(threading.enumerate())
         self._forks: list[int] = []
         if hasattr(os, "register_at_fork"):
             os.register_at_fork(after_in_parent=lambda: self._forks.append(1))
+        self._audits = list(_audits())
         self._finders, self._path, self._hooks = list(sys.meta_path), list(sys.path), list(sys.path_hooks)
         # What looks is kept apart from what may be spoilt.
         self._looks: tuple[Callable[[], Iterator[str]], ...] = (
-            self._of_files, self._of_modules, self._of_names, self._of_process, self._of_imports
+            self._of_audits, self._of_files, self._of_modules, self._of_names, self._of_process,
+            self._of_imports, self._of_search,
         )  # fmt: skip
         sys.meta_path.insert(0, self)
 
@@ -80,9 +108,12 @@ class Disturbance(importlib.abc.MetaPathFinder):
             return
         self._modules[name] = module
         if name.partition(".")[0] in _LIBRARIES:
-            names = {key: value for key, value in vars(module).items() if _is_used(key, value)}
+            names = {key: value for key, value in vars(module).items() if _is_kept(name, key, value)}
             self._names[name] = names
-            for value in names.values():
+            self._hidden[name] = _HIDEABLE & vars(module).keys()
+            for key, value in names.items():
+                if inner := _inner(name, value):
+                    self._inner[name, key] = inner
                 if isinstance(value, type) and value.__module__ == name:
                     self._classes[value] = {k: v for k, v in vars(value).items() if _is_used(k, v)}
 
@@ -106,12 +137,23 @@ class Disturbance(importlib.abc.MetaPathFinder):
         for name, names in self._names.items():
             now = vars(self._modules[name])
             for key, value in names.items():
-                if now.get(key) is not value and (name, key) not in _OURS_TO_SET:
+                if (name, key) in _OURS_TO_SET:
+                    continue
+                if now.get(key) is not value or _inner(name, value) != self._inner.get((name, key), ()):
                     yield f"changes {name}.{key}, which is everybody's"
+            if new := sorted(
+                key
+                for key in (_HIDEABLE & now.keys()) - self._hidden[name]
+                if not isinstance(now[key], types.ModuleType)
+            ):
+                yield f"hides {new[0]} of Python in {name}, which is everybody's"
         for cls, names in self._classes.items():
             own = vars(cls)
             for key, value in names.items():
-                if own.get(key) is not value:
+                if own.get(key) is not value and (cls.__name__, key) not in _LIBRARIES_SET:
+                    yield f"changes {cls.__module__}.{cls.__qualname__}.{key}, which is everybody's"
+            for key in own.keys() - names.keys():
+                if _is_used(key, own[key]) and any(key in vars(one) for one in cls.__mro__[1:]):
                     yield f"changes {cls.__module__}.{cls.__qualname__}.{key}, which is everybody's"
 
     def _of_process(self) -> Iterator[str]:
@@ -119,7 +161,10 @@ class Disturbance(importlib.abc.MetaPathFinder):
         for name, was in self._process.items():
             if now[name] != was:
                 yield f"changes {name} of the process, which is everybody's"
-        if gone := sorted(self._environment - set(os.environ)):
+        settings = (one for one in os.environ if one.startswith(_SETTINGS))
+        if other := sorted(one for one in settings if self._environment.get(one) != os.environ[one]):
+            yield f"changes {other[0]} of the environment, which the user sets"
+        if gone := sorted(self._environment.keys() - os.environ.keys()):
             first = "PATH" if "PATH" in gone else gone[0]
             yield f"removes {first} from the environment, which is everybody's"
         if self._forks:
@@ -136,6 +181,26 @@ class Disturbance(importlib.abc.MetaPathFinder):
         ):
             if any(one not in after for one in before):
                 yield f"removes what stands in sys.{what}, which is everybody's"
+        if wrong := [one for one in sys.path if not isinstance(one, str)]:
+            yield f"puts {wrong[0]!r:.80} into sys.path, which has texts alone"
+
+    def _of_audits(self) -> Iterator[str]:
+        if _audits() != self._audits:
+            yield "listens to all that Python does (sys.addaudithook), which nobody can end"
+
+    def _of_search(self) -> Iterator[str]:
+        """Whether a module that has not been imported yet would be another one."""
+        if (self._finders, self._path) == (sys.meta_path, sys.path):
+            return
+        for name in sorted(_LIBRARIES - sys.modules.keys()):
+            try:
+                now = _origin(name)
+            except Exception as error:
+                yield f"keeps {name} from being imported ({type(error).__name__}), which is everybody's"
+                return
+            if now != _origin(name, self._finders, self._path):
+                yield f"puts another module in the place of {name}, which is everybody's"
+                return
 
 
 class _Noting(importlib.machinery.SourceFileLoader):
@@ -158,6 +223,89 @@ def _is_used(name: str, value: Any) -> bool:
     return callable(value) or isinstance(value, (property, classmethod, staticmethod))
 
 
+def _is_kept(module: str, name: str, value: Any) -> bool:
+    """Whether nobody changes what stands in a module under a name: what is called, and constants."""
+    if _is_used(name, value):
+        return True
+    if name.startswith(("_", "last_")) or name in _VARYING:
+        return False
+    if module.partition(".")[0] in _OWN:
+        return name.isupper() and not isinstance(value, types.ModuleType)
+    return isinstance(value, _PLAIN) and (name.isupper() or module in _WITH_CONSTANTS)
+
+
+def _inner(module: str, value: Any) -> tuple[Any, ...]:
+    """What can be changed within something that stays the same; empty if there is nothing."""
+    if isinstance(value, types.FunctionType):
+        more = value.__kwdefaults__ or {}
+        return (id(value.__code__), id(value.__defaults__), *((key, id(one)) for key, one in more.items()))
+    if module.partition(".")[0] not in _OWN or isinstance(value, type):
+        return ()
+    if isinstance(value, (dict, types.MappingProxyType)):
+        return tuple((key, id(one)) for key, one in value.items())
+    if isinstance(value, (list, set)):
+        return tuple(map(id, value))
+    if dataclasses.is_dataclass(value):
+        return tuple(id(getattr(value, field.name)) for field in dataclasses.fields(value))
+    return ()
+
+
+_HIDEABLE = frozenset(name for name in vars(builtins) if not name.startswith("__"))
+"""Names of Python that a module may hide by one of its own."""
+_heard: list[int] = []
+
+
+_BUILT_IN_TYPES: tuple[type, ...] = (
+    str,
+    bytes,
+    int,
+    float,
+    complex,
+    bool,
+    list,
+    tuple,
+    dict,
+    set,
+    frozenset,
+    type(None),
+)
+
+
+def _kinds() -> list[bool]:
+    """Which types of Python are taken for which kinds, such as for a mapping or a number."""
+    names = [(module, name) for module in (abc, numbers) for name in module.__all__ if name != "ByteString"]
+    kinds: list[type] = [getattr(*one) for one in names]
+    return [issubclass(one, kind) for one, kind in product(_BUILT_IN_TYPES, kinds)]
+
+
+def _audits() -> list[int]:
+    """A mark for each listener to audits of Python that was added since this was asked first."""
+    if not _heard:
+
+        def hook(event: str, _: tuple[Any, ...]) -> None:
+            if event == "sys.addaudithook":
+                _heard.append(1)
+
+        sys.addaudithook(hook)
+        _heard.append(0)
+    return list(_heard)
+
+
+def _origin(name: str, finders: Sequence[Any] | None = None, path: Sequence[str] | None = None) -> str | None:
+    """Where a module would be imported from, by these finders along this path, or as things stand."""
+    if finders is None or path is None:
+        found = (one.find_spec(name, None, None) for one in sys.meta_path)
+    else:
+        found = (
+            importlib.machinery.PathFinder.find_spec(name, list(path))
+            if one is importlib.machinery.PathFinder
+            else one.find_spec(name, None, None)
+            for one in finders
+        )
+    spec = next((one for one in found if one is not None), None)
+    return None if spec is None else spec.origin
+
+
 def _files() -> dict[int, tuple[int, ...]]:
     """Number to what is open under it."""
     found: dict[int, tuple[int, ...]] = {}
@@ -174,6 +322,7 @@ def _process() -> dict[str, Any]:
     """Limits, timers, and what the interpreter calls."""
     found: dict[str, Any] = {f"sys.{name}": getattr(sys, name, None) for name in _HOOKS}
     found["threading.excepthook"] = threading.excepthook
+    found["kinds of types (register of collections.abc or numbers)"] = _kinds()
     found["the tracing function"] = sys.gettrace()
     found["the profiling function"] = sys.getprofile()
     if hasattr(signal, "getitimer"):
@@ -181,6 +330,11 @@ def _process() -> dict[str, Any]:
         found["a timer"] = [signal.getitimer(one)[0] > 0 for one in timers]
     if hasattr(os, "getpriority"):
         found["the priority"] = os.getpriority(os.PRIO_PROCESS, 0)
+    for what, name in (("the user", "geteuid"), ("the group", "getegid"), ("the groups", "getgroups")):
+        if hasattr(os, name):
+            found[what] = getattr(os, name)()
+    if hasattr(os, "sched_getaffinity"):
+        found["the cores"] = os.sched_getaffinity(0)
     try:
         import resource
     except ImportError:  # not on Windows

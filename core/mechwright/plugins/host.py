@@ -238,7 +238,8 @@ def _reason(error: BaseException) -> str:
     said = "".join(c for c in text[0] if c.isprintable()) if text else ""
     if isinstance(error, ModuleNotFoundError) and (new := _MOVED.get(str(error.name))):
         said += f"; it is called {new} now"
-    return shortened(f"{type(error).__name__}: {said}") if said else type(error).__name__
+    kind = " ".join(type(error).__name__.split())
+    return shortened(f"{kind}: {said}") if said else kind
 
 
 def load(
@@ -319,6 +320,12 @@ def hook_points(
 def host() -> Host:
     """The host of this process, loaded once."""
     return load()
+
+
+def foreign() -> bool:
+    """Whether a plugin of another distribution is used in this process, which has loaded its plugins."""
+    used = host().registered.values() if host.cache_info().currsize else ()
+    return any(one.distribution != BUILT_IN for entries in used for one in entries.values())
 
 
 def _results() -> dict[str, Result[Any]]:

@@ -4,12 +4,14 @@ import atexit
 import json
 import os
 import sys
+import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from importlib.metadata import EntryPoint
 from typing import NoReturn
 
 from mechwright.contracts import guard
+from mechwright.contracts.alarm import TimeUpError, in_time
 from mechwright.plugins.disturbance import Disturbance
 from mechwright.plugins.host import Host, register
 from mechwright.plugins.trial import AT_END, DEAF, WHILE
@@ -63,8 +65,11 @@ def _spoilt(number: int, distribution: str, point: EntryPoint, say: Say) -> bool
         return True
     if atexit._ncallbacks() != calls:
         say(number, AT_END, None)
-        atexit._run_exitfuncs()
-        say(number, AT_END, broken)
+        begun = time.monotonic()
+        with suppress(TimeUpError), in_time(guard.LOADING):
+            atexit._run_exitfuncs()
+        late = time.monotonic() - begun >= guard.LOADING  # atexit itself catches what stops a call
+        say(number, AT_END, f"takes more than {guard.LOADING:g} s {AT_END}" if late else broken)
         return True
     say(number, WHILE, broken)
     return False

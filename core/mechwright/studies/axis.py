@@ -82,10 +82,11 @@ def axis_of(model: type[Parameters], name: str, asked: Range, where: str) -> Axi
         The parameter is not known, a value is outside of its bounds, or the range is none.
     """
     field = _field(model, name, where)
+    reader = _reader(field, field.annotation)
 
     def read(value: Value, key: str) -> Any:
         try:
-            return _reader(field, field.annotation).validate_python(value)
+            return reader.validate_python(value)
         except ValidationError as error:
             said = error.errors(include_url=False)[0]["msg"]
             raise DesignError(f"{where}.{key}: {value!r}: {said[0].lower()}{said[1:]}") from None
