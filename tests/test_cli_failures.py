@@ -90,6 +90,8 @@ def test_a_family_without_instances_has_no_assembly(run: Run, odd: type[Odd], tm
     assert (code, err) == (0, "")
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "plate.step",
+        "plate-drawing.dxf",
+        "plate-drawing.pdf",
         "bill-of-materials.csv",
         "bill-of-materials.html",
         "manifest.json",

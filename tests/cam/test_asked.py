@@ -85,7 +85,7 @@ def test_without_these_keys_a_part_is_the_one_of_the_family(tmp_path):
     found = design(tmp_path, "[cam]\ndeburr = 0\nmark = ''\n[cam.part.crank]\norigin = 'corner'\n")
     alone = with_fits(found.family.parts(found.params), found.solve(2), Fits())
     for ours, theirs in zip(found.parts(), alone, strict=True):
-        assert ours == theirs or ours.build is not None
+        assert replace(ours, measures=theirs.measures) == theirs or ours.build is not None
 
 
 def test_a_threaded_hole_is_one_hole_and_the_part_loses_what_the_thread_leaves(tmp_path):

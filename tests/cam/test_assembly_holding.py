@@ -362,8 +362,6 @@ def test_the_float_of_a_shaft_is_measured_once_its_parts_are_there():
     (stack,) = [each for each in stacks if each.name == "float of shaft-2"]
     low, high = stack.worst
     assert f"{low:.2f} to {high:.2f} mm" in one
-    assert (
-        f"for {stack.middle:.2f} mm {' + '.join(f'{ring:g}' for ring in stack.shimming.rings(stack.middle))}"
-        in one
-    )
+    rings = " + ".join(f"{ring:g}" for ring in stack.shimming.rings(stack.middle))
+    assert f"At {stack.middle:.2f} mm, say, put in {rings} mm." in one
     assert Adjusting(plan, ()).stacks == ()

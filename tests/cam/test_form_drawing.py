@@ -18,7 +18,9 @@ from mechwright_cad.form_drawing.dimensions import shown_in
 from mechwright_cad.form_drawing.drawing import form_sheet
 from mechwright_cad.form_drawing.projection import FRONT, LEFT, TOP, projected
 from mechwright_cad.sheet.frame import MARGIN
+from mechwright_cad.sheet.settings import DrawingSettings
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
+from mechwright_cad.sheet.title import TitleBlock
 from mechwright_cad.sheet.to_dxf import dxf
 from mechwright_cad.sheet.to_pdf import pdf
 
@@ -49,9 +51,12 @@ def arm():
     return Part("arm", None, 0.0, "aluminium", free_form=form)
 
 
+BLOCK = TitleBlock("design", DrawingSettings())
+
+
 @pytest.fixture(scope="module")
 def sheet():
-    return form_sheet(arm(), "design")
+    return form_sheet(arm(), BLOCK)
 
 
 def texts(sheet):
@@ -72,7 +77,7 @@ def test_it_states_angle_radii_width_and_the_limits_of_bores(sheet):
         "Form by arm.step; this drawing states sizes and limits",
     } <= {*shown}
     volume = arm().build().Volume()
-    assert f"{volume * 2.7 / 1000:.1f} g" in shown
+    assert f"{volume * 2.7 / 1000:.4g} g" in shown
 
 
 def test_everything_is_on_the_sheet_and_beside_the_title_block(sheet):
@@ -135,7 +140,7 @@ def test_a_size_is_drawn_where_it_is_true():
 
 
 def test_files_are_the_same_twice_and_have_hidden_lines(sheet):
-    again = form_sheet(arm(), "design")
+    again = form_sheet(arm(), BLOCK)
     assert dxf(sheet) == dxf(again)
     assert pdf(sheet) == pdf(again)
     document = ezdxf.read(io.StringIO(dxf(sheet).decode()))
@@ -147,4 +152,4 @@ def test_files_are_the_same_twice_and_have_hidden_lines(sheet):
 
 def test_a_part_of_another_kind_has_no_such_drawing():
     with pytest.raises(GeometryError, match="part block is of no free form"):
-        form_sheet(Part("block", None, 0.0, "steel", build=ring_piece))
+        form_sheet(Part("block", None, 0.0, "steel", build=ring_piece), BLOCK)

@@ -224,8 +224,14 @@ def test_the_title_block_says_what_the_design_file_says(tmp_path):
 
 
 def test_a_title_of_500_letters_is_refused_by_its_key():
-    content = {"format": 1, "family": "plate", "name": "p", "parameters": {}, "drawing": {"title": "x" * 500}}
-    with pytest.raises(DesignError, match=r"drawing\.title: .*60"):
+    content = {
+        "format": 1,
+        "family": "plate",
+        "name": "p",
+        "parameters": {},
+        "drawings": {"title": "x" * 500},
+    }
+    with pytest.raises(DesignError, match=r"drawings\.title: .*60"):
         design_of(content, Path("p.toml"), "", host())
 
 
@@ -240,7 +246,7 @@ def test_both_files_are_sound_and_the_same_each_time():
     assert pdf(sheet).startswith(b"%PDF-1.4")
     audit = ezdxf.read(io.StringIO(dxf(sheet).decode())).audit()
     assert (audit.errors, audit.fixes) == ([], [])
-    assert DrawingTable.name == "drawing"
+    assert DrawingTable.name == "drawings"
 
 
 def test_letters_of_other_alphabets_are_written_in_a_font_that_the_file_brings_along():
@@ -263,9 +269,9 @@ def test_letters_of_other_alphabets_are_written_in_a_font_that_the_file_brings_a
 
 def test_letters_that_no_font_at_hand_has_are_refused_by_their_key(tmp_path, monkeypatch):
     with pytest.raises(
-        DesignError, match=r"drawing\.title: the font at hand has no letter '轮'; set drawing.font"
+        DesignError, match=r"drawings\.title: the font at hand has no letter '轮'; set drawings.font"
     ):
         DrawingTable().read({"title": "齿轮"}, Path("p.toml"))
     (tmp_path / "own.ttf").write_bytes(b"no font")
-    with pytest.raises(DesignError, match=r"drawing\.title: own\.ttf is no TrueType font"):
+    with pytest.raises(DesignError, match=r"drawings\.title: own\.ttf is no TrueType font"):
         DrawingTable().read({"title": "Ж", "font": "own.ttf"}, tmp_path / "p.toml")

@@ -144,7 +144,7 @@ PARTS: dict[str, tuple[list[Part], str]] = {
         changed(details=(3,)),
         "details[0] of what it gives is 3; a Chamfer or a Thread or an Engraving",
     ),
-    "material": (changed(material="cheese"), "part 'plate' is of 'cheese'; materials are aluminium, "),
+    "material": (changed(material="cheese"), "part 'plate' is of 'cheese'; materials are 1.4301, "),
     "short float": (changed(thickness=np.float32(5)), "a number of Python is wanted"),
     "complex": (changed(instances=(Instance("b", 1j),)), "is 1j; a number"),
     "wordless": (changed(marks=(Wordless(),)), "marks[0] of what it gives is a Wordless; "),

@@ -134,7 +134,7 @@ def test_a_part_says_what_it_is():
     assert pickle.loads(pickle.dumps(turned)).turned == SHAFT  # noqa: S301 - our own
     with pytest.raises(GeometryError, match="either an outline or a solid"):
         Part("ghost", None, 0.0, "steel", bought=Bought("a thing without shape"))
-    with pytest.raises(GeometryError, match="turned or bought, not both"):
+    with pytest.raises(GeometryError, match="turned, bought or of free form, one of them alone"):
         Part("both", None, 0.0, "steel", turned=SHAFT, bought=Bought("thing"))
 
 

@@ -11,7 +11,7 @@ from mechwright_geneva.parameters import GenevaParams
 def test_a_hollow_of_the_disc_lies_under_every_roller(values):
     params = GenevaParams.model_validate(values)
     parts = {part.name: part for part in Geneva().parts(params)}
-    (mark,) = parts["crank"].marks
+    mark, *_ = parts["crank"].marks
     assert "hollow" in mark.note
     motion = Geneva().solve(params, 2)
     rim = np.array(parts["locking-disc"].outline.outer.flatten(0.01))

@@ -74,7 +74,7 @@ def _embedded(data: bytes, letters: str, name: str) -> Embedded:
         raise DesignError(f"{name} has no TrueType outlines; take a file that ends in .ttf")
     missing = [letter for letter in letters if ord(letter) not in known]
     if missing:
-        raise DesignError(f"{name} has no letter {missing[0]!r}; set drawing.font to a .ttf that has it")
+        raise DesignError(f"{name} has no letter {missing[0]!r}; set drawings.font to a .ttf that has it")
     options = subset.Options(hinting=False, layout_features=[], name_IDs=[], recalc_timestamp=False)
     cutter = subset.Subsetter(options)
     cutter.populate(unicodes=[ord(letter) for letter in letters])

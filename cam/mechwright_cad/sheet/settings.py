@@ -1,4 +1,4 @@
-"""What a design file says of its drawings in ``[drawing]``."""
+"""What a design file says of its drawings in ``[drawings]``."""
 
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -10,7 +10,6 @@ from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.tables import read_table
-from mechwright.designs.text import table_lines
 from mechwright.errors import DesignError
 from mechwright_cad.sheet.fonts import default_font, embedded, is_plain
 
@@ -19,7 +18,7 @@ Short = Annotated[str, Field(max_length=24, pattern=r"^[^\x00-\x1f\x7f]*$")]
 
 
 class DrawingSettings(Parameters):
-    """The table ``[drawing]``: what the title block of every drawing says, and its projection."""
+    """The table ``[drawings]``: what the title block of every drawing says, and its projection."""
 
     owner: Words = Field("", description="Legal owner of the drawings, such as the firm.")
     title: Words = Field("", description="Title of the machine. Default: the design's name.")
@@ -39,9 +38,9 @@ class DrawingSettings(Parameters):
 
 
 class DrawingTable(Table[DrawingSettings]):
-    """Reads and writes ``[drawing]``."""
+    """Reads and writes ``[drawings]``."""
 
-    name = "drawing"
+    name = "drawings"
     settings = DrawingSettings
 
     def read(self, content: object, path: Path) -> DrawingSettings:
@@ -52,7 +51,7 @@ class DrawingTable(Table[DrawingSettings]):
                 try:
                     embedded(found.font.data or default_font(), [text], found.font.name or "the font at hand")
                 except DesignError as error:
-                    raise DesignError(f"{path}: drawing.{key}: {error}") from error
+                    raise DesignError(f"{path}: drawings.{key}: {error}") from error
         return found
 
     def schema(self) -> dict[str, Any]:
@@ -63,4 +62,6 @@ class DrawingTable(Table[DrawingSettings]):
         """The whole table for a new design; nothing where a design says nothing of drawings."""
         if value is not None and value == DrawingSettings():
             return []
+        from mechwright.designs.text import table_lines
+
         return table_lines(DrawingSettings, self.name, value)

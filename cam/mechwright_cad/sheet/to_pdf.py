@@ -28,7 +28,7 @@ _POINT = 72 / 25.4
 def pdf(sheet: Sheet, title: str = "", font: bytes = b"") -> bytes:
     """The whole file; texts with letters that Helvetica has not are written in the TrueType ``font``."""
     other = [text.text for text in _texts(sheet.items) if not is_plain(text.text)]
-    own = embedded(font or default_font(), other, "drawing.font") if other else None
+    own = embedded(font or default_font(), other, "drawings.font") if other else None
     content = "\n".join(
         [f"{_POINT:.6f} 0 0 {_POINT:.6f} 0 0 cm 1 J 1 j", *(_drawn(item, own) for item in sheet.items)]
     ).encode(ENCODING)

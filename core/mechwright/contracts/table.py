@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import Plugin
 
 if TYPE_CHECKING:
     from mechwright.contracts.answers import Around, Parts
     from mechwright.contracts.family import Family
+    from mechwright.contracts.part import Part
     from mechwright.contracts.schema_check import Lines, Schema
 
 V = TypeVar("V")
@@ -72,7 +72,7 @@ class Table(Plugin, Generic[V]):
         """The JSON schema of the file that the table names, for ``mechwright schema``; empty without one."""
         return {}
 
-    def parts(self, value: V, parts: Sequence[Part], path: Path) -> "Parts":  # noqa: ARG002
+    def parts(self, value: V, parts: "Sequence[Part]", path: Path) -> "Parts":  # noqa: ARG002
         """The parts of the design with what the table asks of them, such as broken edges.
 
         Solids, drawings, programs and proofs are made of these; by default they are as the family gives them.

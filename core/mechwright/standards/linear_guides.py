@@ -73,7 +73,7 @@ class LinearGuide:
         """The shortest rail that is cut with equal ends and is at least so long, mm.
 
         >>> linear_guide("linear-12").rail_length(60)
-        70.0
+        70
         """
         gaps = max(1, math.ceil((least - 2 * self.end) / self.pitch))
         return 2 * self.end + gaps * self.pitch
