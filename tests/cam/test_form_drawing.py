@@ -16,7 +16,7 @@ from mechwright.errors import GeometryError
 from mechwright_cad.form_drawing.chart import direction_of, is_radial, rows_of
 from mechwright_cad.form_drawing.dimensions import shown_in
 from mechwright_cad.form_drawing.drawing import form_sheet
-from mechwright_cad.form_drawing.projection import FRONT, LEFT, TOP, projected
+from mechwright_cad.form_drawing.projection import FRONT, LEFT, RIGHT, TOP, projected
 from mechwright_cad.sheet.frame import MARGIN
 from mechwright_cad.sheet.settings import DrawingSettings
 from mechwright_cad.sheet.sheet import Dimension, Fill, Stroke, Text, width_of
@@ -148,6 +148,21 @@ def test_files_are_the_same_twice_and_have_hidden_lines(sheet):
     assert document.layers.get("HIDDEN").dxf.linetype == "HIDDEN"
     hidden = document.modelspace().query('*[layer=="HIDDEN"]')
     assert len(hidden) > 3
+
+
+def test_in_the_third_angle_the_top_view_stands_above_and_the_right_one_beside_the_front_view(sheet):
+    third = form_sheet(arm(), TitleBlock("design", DrawingSettings(projection="third")))
+    assert sorted(texts(third)) == sorted(texts(sheet))
+
+    def height(drawn, text):
+        (found,) = [item.at[1] for item in drawn.items if isinstance(item, Text) and item.text == text]
+        return found
+
+    # The chart stands beside the top view, the word where axes meet in the front view.
+    assert height(sheet, "Bore") < height(sheet, "centre")
+    assert height(third, "Bore") > height(third, "centre")
+    assert RIGHT.towards.tolist() == [1.0, 0.0, 0.0]
+    assert LEFT.towards.tolist() == [-1.0, 0.0, 0.0]
 
 
 def test_a_part_of_another_kind_has_no_such_drawing():

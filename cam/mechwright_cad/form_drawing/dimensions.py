@@ -8,7 +8,7 @@ import numpy as np
 
 from mechwright.contracts.free_form import AngleSize, FormSize, LengthSize, RadiusSize
 from mechwright.geometry.segments import Point
-from mechwright_cad.form_drawing.projection import FRONT, LEFT, TOP, View
+from mechwright_cad.form_drawing.projection import FRONT, LEFT, RIGHT, TOP, View
 from mechwright_cad.sheet.circles import arc
 from mechwright_cad.sheet.dimensions import FREE, GAP, ROW, length, upright
 from mechwright_cad.sheet.sheet import HEIGHT, Sheet, Stroke, Text, arrow, width_of
@@ -49,6 +49,12 @@ def shown_in(size: FormSize, views: Sequence[View] = (FRONT, LEFT, TOP)) -> View
     return None
 
 
+def is_in(size: FormSize, view: View) -> bool:
+    """Whether a view shows a size; both side views show the same ones."""
+    found = shown_in(size)
+    return found == (LEFT if view == RIGHT else view)
+
+
 def _along_paper(size: LengthSize, view: View) -> bool:
     x, y = view.seen(tuple(np.subtract(size.second, size.first)))
     return min(abs(x), abs(y)) < ACROSS
@@ -56,7 +62,7 @@ def _along_paper(size: LengthSize, view: View) -> bool:
 
 def draw(sheet: Sheet, placed: Placed, sizes: Sequence[FormSize]) -> None:
     """The sizes that a view shows; each of a kind has a row of its own, so that none meets another."""
-    mine = [size for size in sizes if shown_in(size) == placed.view]
+    mine = [size for size in sizes if is_in(size, placed.view)]
     angles = sorted((one for one in mine if isinstance(one, AngleSize)), key=lambda one: one.degrees)
     for row, angle in enumerate(angles):
         _angle(sheet, placed, angle, row)
@@ -83,16 +89,14 @@ def draw(sheet: Sheet, placed: Placed, sizes: Sequence[FormSize]) -> None:
 
 def level_rows(view: View, sizes: Sequence[FormSize]) -> float:
     """What the level lengths of a view take below it, mm."""
-    count = sum(
-        1 for one in sizes if isinstance(one, LengthSize) and shown_in(one) == view and _level(one, view)
-    )
+    count = sum(1 for one in sizes if isinstance(one, LengthSize) and is_in(one, view) and _level(one, view))
     return FREE + ROW * count if count else 0.0
 
 
 def upright_rows(view: View, sizes: Sequence[FormSize]) -> float:
     """What the upright lengths of a view take on its right, mm."""
     count = sum(
-        1 for one in sizes if isinstance(one, LengthSize) and shown_in(one) == view and not _level(one, view)
+        1 for one in sizes if isinstance(one, LengthSize) and is_in(one, view) and not _level(one, view)
     )
     return FREE + 2 * ROW * count + width_of("⌀100.5") if count else 0.0
 

@@ -13,7 +13,7 @@ from mechwright.geometry.segments import Point
 from mechwright_cad.form_drawing import chart as charts
 from mechwright_cad.form_drawing import dimensions as dimensioning
 from mechwright_cad.form_drawing.dimensions import Placed
-from mechwright_cad.form_drawing.projection import FRONT, LEFT, TOP, Projection, projected
+from mechwright_cad.form_drawing.projection import FRONT, LEFT, RIGHT, TOP, Projection, projected
 from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, frame
 from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import Sheet, Text, width_of
@@ -83,7 +83,8 @@ def form_sheet(part: Part, title: TitleBlock) -> Sheet:
     if form is None:
         raise GeometryError(f"part {part.name} is of no free form: it has no drawing of this kind")
     solid = part_solid(part)
-    views = projected(solid, FRONT), projected(solid, TOP), projected(solid, LEFT)
+    side = RIGHT if title.third_angle else LEFT
+    views = projected(solid, FRONT), projected(solid, TOP), projected(solid, side)
     plan = _Plan(form, views, charts.rows_of(form), notes_of(part, form))
     paper, scale = _fitting(plan)
     sheet = Sheet(*paper, scale)
@@ -91,11 +92,16 @@ def form_sheet(part: Part, title: TitleBlock) -> Sheet:
     used = plan.size(scale)
     left = MARGIN + EDGE + max((paper[0] - 2 * (MARGIN + EDGE) - used[0]) / 2, 0.0)
     top = paper[1] - MARGIN - EDGE - max((paper[1] - MARGIN - EDGE - bottom - used[1]) / 2, 0.0)
-    front, below, beside = (plan.room(k, scale) for k in range(3))
-    x, y = left + max(front[0], below[0]), top - max(front[3], beside[3])
-    second = left + max(front[0], below[0]) + max(front[2], below[2]) + APART
-    lower = y - max(front[1], beside[1]) - APART
-    origins: list[Point] = [(x, y), (x, lower - below[3]), (second + beside[0], y)]
+    front, upon, beside = (plan.room(k, scale) for k in range(3))
+    x, second = left + max(front[0], upon[0]), left + max(front[0], upon[0]) + max(front[2], upon[2]) + APART
+    head, foot = max(front[3], beside[3]), max(front[1], beside[1])
+    if title.third_angle:
+        high = max(upon[1] + upon[3], charts.size_of(plan.rows)[1])
+        y, lower = top - high - APART - head, top
+    else:
+        y = top - head
+        lower = y - foot - APART
+    origins: list[Point] = [(x, y), (x, lower - upon[3]), (second + beside[0], y)]
     for k, origin in enumerate(origins):
         _view(sheet, plan, k, origin)
     charts.chart(sheet, plan.rows, (second, lower))

@@ -47,7 +47,9 @@ class View:
 FRONT = View("front", (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 TOP = View("top", (1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
 LEFT = View("left", (0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
-"""First-angle projection (ISO 5456-2): the top view stands below the front view, the left one beside it."""
+RIGHT = View("right", (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
+"""ISO 5456-2. In first-angle projection the top view stands below the front view and the view from the left
+beside it; in third-angle projection the top view stands above it, and the view from the right beside it."""
 
 
 @dataclass(frozen=True)
