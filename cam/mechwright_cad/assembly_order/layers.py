@@ -148,7 +148,7 @@ def mesh_points(body: Body, sample: int) -> tuple[Array, NDArray[np.int64]]:
     return points @ turn.T + place, mesh.triangles
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=512)
 def _coarse(part: Part) -> Surface:
     """A mesh of a part in its own coordinates, a few hundredths off its solid."""
     own = own_layers(part)

@@ -83,6 +83,11 @@ class Order:
         """Whether a straight way leads each body to its seat."""
         return self._whole.has_ways
 
+    @property
+    def stuck(self) -> tuple[int, ...]:
+        """Bodies that hold each other fast, as no straight way leads one off; none where all come off."""
+        return self._whole.start if len(self._whole.start) > 1 else ()
+
     @cached_property
     def joints(self) -> tuple[ScrewJoint, ...]:
         """All screwed joints."""

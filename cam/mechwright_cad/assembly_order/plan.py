@@ -1,6 +1,6 @@
 """The plan of a build: its bodies, the steps in which they go together, and where the input stands."""
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -72,7 +72,14 @@ def plan_of(build: Build) -> Plan:
         return planned(first)
     motion = build.design.solve(LOOKS)
     others = (_order(build, motion, sample) for sample in range(1, LOOKS))
-    return planned(next((one for one in others if one.has_ways), first))
+    fast = {first.bodies[k].name for k in first.stuck}
+    return planned(next((one for one in others if _is_loose(one, fast) and one.has_ways), first))
+
+
+def _is_loose(order: Order, names: Set[str]) -> bool:
+    """Whether bodies that hold each other fast elsewhere come apart here, without a look at the others."""
+    bodies = [body for body in order.bodies if body.name in names]
+    return Order(bodies, order.motion, order.sample).has_ways
 
 
 def _order(build: Build, motion: Motion, sample: int) -> Order:
