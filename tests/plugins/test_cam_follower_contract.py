@@ -95,6 +95,7 @@ class TestCamFollower(DayContract):
         "pressure_limit": [10.0],
         "face_offset": [14.0],
         "screws": [3],
+        "spring": ["auto", "1.25x12.5x40", "1x10x50"],
     }
     requirements: ClassVar = {"size": ({"contact": "flat"}, {"offset": 2.0, "conjugate": True})}
     max_examples = tried(5, 40)
