@@ -69,3 +69,17 @@ def test_a_keyed_hub_without_a_ring_is_bonded():
     keyed = Turned((Length(8.0, 6.0, shaft_fit(8, "h6")),), seats=(KeySeat(0.0, 6.0, 2.0, 2.8),))
     order = order_of(*seated("H7", "h6", keyed))
     assert [order.seats.kind(one) for one in order.seats.matches] == ["bonded"]
+
+
+@pytest.mark.parametrize(
+    ("beside", "stretched", "held"), [((1, 2), True, True), ((1,), True, False), ((1, 2), False, False)]
+)
+def test_a_spring_is_held_by_its_pull_between_two_bodies_alone(beside, stretched, held):
+    from types import SimpleNamespace
+
+    from mechwright_cad.assembly_order.holding import Holding
+
+    bought = SimpleNamespace(stretched=stretched)
+    bodies = [SimpleNamespace(part=SimpleNamespace(bought=bought))]
+    blocking = SimpleNamespace(bodies=bodies, neighbours={0: beside})
+    assert Holding._hooked(SimpleNamespace(blocking=blocking), (0,)) is held

@@ -157,12 +157,18 @@ class Holding:
         units = self.units(there)
         ground = units[root]
         for unit in sorted(set(units.values()), key=min):
-            if unit != ground:
+            if unit != ground and not self._hooked(unit):
                 ways = (way for way in self._tried(unit) if not self._stopped(unit, units, {ground}, way))
                 way = next(ways, None)
                 if way is not None:
                     x, y, z = way.tolist()
                     yield unit, (x, y, z)
+
+    def _hooked(self, unit: Unit) -> bool:
+        """Whether it is a spring between two bodies: its pull keeps both hooks on their pins."""
+        bought = [self.blocking.bodies[k].part.bought for k in unit]
+        beside = {other for k in unit for other in self.blocking.neighbours[k]} - set(unit)
+        return all(one is not None and one.stretched for one in bought) and len(beside) > 1
 
     def _tried(self, unit: Unit) -> Iterator[Array]:
         seen = dict.fromkeys((*UPRIGHT, *_SIDES))
