@@ -2,8 +2,10 @@
 
 import io
 import math
+import random
 import re
 from collections import defaultdict
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -13,6 +15,7 @@ import shapely
 from by_night import by_night
 
 from mechwright import host
+from mechwright.contracts.datum import over_pins
 from mechwright.contracts.details import Thread
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
@@ -22,6 +25,7 @@ from mechwright.errors import DesignError, GeometryError
 from mechwright.geometry import Loop, Outline
 from mechwright.pipeline.tolerances import TolerancesTable
 from mechwright_cad.plate_drawing.drawing import PlateDrawing, plate_sheet
+from mechwright_cad.sheet.fonts import default_font
 from mechwright_cad.sheet.frame import MARGIN
 from mechwright_cad.sheet.settings import DrawingSettings, DrawingTable
 from mechwright_cad.sheet.sheet import Dimension, Text, width_of
@@ -246,7 +250,6 @@ def test_both_files_are_sound_and_the_same_each_time():
     assert pdf(sheet).startswith(b"%PDF-1.4")
     audit = ezdxf.read(io.StringIO(dxf(sheet).decode())).audit()
     assert (audit.errors, audit.fixes) == ([], [])
-    assert DrawingTable.name == "drawings"
 
 
 def test_letters_of_other_alphabets_are_written_in_a_font_that_the_file_brings_along():
@@ -275,3 +278,44 @@ def test_letters_that_no_font_at_hand_has_are_refused_by_their_key(tmp_path, mon
     (tmp_path / "own.ttf").write_bytes(b"no font")
     with pytest.raises(DesignError, match=r"drawings\.title: own\.ttf is no TrueType font"):
         DrawingTable().read({"title": "Ж", "font": "own.ttf"}, tmp_path / "p.toml")
+
+
+@pytest.mark.parametrize(("many", "size"), [(12, 3.0), (20, 2.0), (30, 1.0)])
+def test_a_plate_of_very_many_holes_has_a_drawing_whose_texts_are_on_the_sheet(many, size):
+    side = 8.0 * many
+    holes = tuple(
+        Bore(
+            f"h-{i}-{k}", (8.0 * i + 4, 8.0 * k + 4), size, 0.0, 10.0, hole_fit(size, "H7") if i % 2 else None
+        )
+        for i in range(many)
+        for k in range(many)
+    )
+    rim = Outline(Loop.polygon([(0, 0), (side, 0), (side, side), (0, side)]))
+    part = Part(
+        "sieve", rim, 10.0, "steel", machined=(*holes, Profile("outside", rim.outer, "outside", 0.0, 10.0))
+    )
+    part = replace(part, measures=over_pins(part, Tolerances()))
+    sheet = plate_sheet(PlateDrawing(part, Tolerances()), BLOCK)
+    frame = shapely.box(MARGIN, MARGIN, sheet.width - MARGIN, sheet.height - MARGIN)
+    boxes = [box(text) for text in texts(sheet)]
+    assert all(frame.contains(found) for found in boxes)
+    tree = shapely.STRtree(boxes)
+    one, two = tree.query(boxes, predicate="overlaps")
+    assert not one.size, [texts(sheet)[k].text for k in (*one[:2], *two[:2])]
+    assert f"{many * many // 2} x" in "\n".join(said(sheet))
+    assert "sieve.dxf has their places" in said(sheet)
+
+
+def test_random_damage_of_a_font_is_refused_by_its_key(tmp_path):
+    draw, whole, refused = random.Random(4), default_font(), []  # noqa: S311 - bytes, no secrets
+    for _ in range(30):
+        data = bytearray(whole[: draw.randrange(len(whole))] if draw.random() < 0.4 else whole)
+        for _ in range(draw.choice([1, 50, 500])):
+            data[draw.randrange(len(data))] = draw.randrange(256)
+        (tmp_path / "own.ttf").write_bytes(bytes(data))
+        try:
+            DrawingTable().read({"title": "Ж", "font": "own.ttf"}, tmp_path / "p.toml")
+        except DesignError as error:
+            refused.append(str(error))
+    assert len(refused) > 10
+    assert all("drawings.title: own.ttf" in words for words in refused)

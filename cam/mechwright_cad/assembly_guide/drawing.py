@@ -12,11 +12,9 @@ from mechwright.geometry.segments import Point
 from mechwright_cad.assembly_guide.balloons import APART, RADIUS, balloons
 from mechwright_cad.assembly_guide.pictures import Pictures
 from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, frame
+from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import HEIGHT, Fill, Sheet, Stroke, Text
 from mechwright_cad.sheet.title import TitleBlock
-
-SCALES = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-"""ISO 5455."""
 
 ROW = 6.0
 """Height of a line of the list, mm."""
@@ -43,11 +41,7 @@ def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], titl
         wide = paper[0] - 2 * (MARGIN + EDGE) - lists * sum(COLUMNS) - column
         high = paper[1] - 2 * (MARGIN + EDGE) - LINE * len(notes)
         fitting = [one for one in SCALES if one * (x1 - x0) <= wide and one * (y1 - y0) <= high]
-        if (
-            lists * sum(COLUMNS) <= paper[0] / 2
-            and fitting
-            and (fitting[0] >= SCALES[3] or paper is SHEETS[-1])
-        ):
+        if lists * sum(COLUMNS) <= paper[0] / 2 and fitting and (fitting[0] >= LEAST or paper is SHEETS[-1]):
             break
     scale = fitting[0] if fitting else SCALES[-1]
     sheet = Sheet(*paper, scale)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
 from mechwright.pipeline import Build, FileName, Page, RawStock, Wanted
-from mechwright_cad.turned_drawing.page import SUFFIXES
+from mechwright.pipeline.page import pages_of
+from mechwright_cad.sheet.page import PartDrawings
 
 if TYPE_CHECKING:
     from mechwright_cad.bill.lines import Line
@@ -84,14 +85,18 @@ def order_of(build: Build) -> list[str]:
 
 
 def drawings_of(build: Build) -> dict[str, list[str]]:
-    """Names of the drawings that are written, by part: plates have theirs beside their programs."""
+    """Names of the drawings that are written, by part; with its program a plate has its outline besides."""
+    drawings = [one for one in pages_of(build.host, build.wanted.command) if isinstance(one, PartDrawings)]
     found = {
-        part.name: [part.name + end for end in SUFFIXES]
+        part.name: [part.name + end for end in one.suffixes]
+        for one in drawings
         for part in build.parts
-        if part.kind == "turned" or part.free_form is not None
+        if one.is_shown(part)
     }
     if build.wanted.command == "build":
-        found |= {part.name: [f"{part.name}.dxf"] for part in build.parts if part.kind == "plate"}
+        for part in build.parts:
+            if part.kind == "plate":
+                found.setdefault(part.name, []).append(f"{part.name}.dxf")
     return found
 
 

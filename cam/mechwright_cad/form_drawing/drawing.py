@@ -18,6 +18,7 @@ from mechwright_cad.sheet.frame import EDGE, LINE, MARGIN, SHEETS, TITLE, frame
 from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import Sheet, Text, width_of
 from mechwright_cad.sheet.title import TitleBlock, projection_sign
+from mechwright_cad.sheet.words import GENERAL
 from mechwright_cad.solids.solid import part_solid
 
 APART = 12.0
@@ -114,7 +115,7 @@ def form_sheet(part: Part, title: TitleBlock) -> Sheet:
 def notes_of(part: Part, form: FreeForm) -> list[str]:
     """What holds for the whole part."""
     return [
-        "Tolerances ISO 2768-mK, principle ISO 8015; surfaces Ra 3.2, edges broken 0.2 (ISO 13715)",
+        *GENERAL,
         f"Process: {form.process}",
         f"Form by {part.name}.step; this drawing states sizes and limits",
         *form.notes,

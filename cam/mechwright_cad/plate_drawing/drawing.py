@@ -1,6 +1,7 @@
 """The whole drawing of a plate: views, labels, tables of holes and corners, sizes to measure, title block."""
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -31,6 +32,12 @@ from mechwright_cad.sheet.sheet import Sheet, width_of
 from mechwright_cad.sheet.tables import STEP, Row
 from mechwright_cad.sheet.title import TitleBlock, projection_sign
 from mechwright_cad.sheet.words import GENERAL, number
+
+MOST_HOLES = 100
+"""Holes whose places a table holds: more would not go on a sheet of A1 beside the plan."""
+
+MOST_MEASURES = 40
+"""Rows of sizes to measure, as on a setup sheet."""
 
 _BETWEEN = 6.0
 """Between views, and between columns of tables, mm."""
@@ -73,16 +80,19 @@ class PlateDrawing:
         return None if found is None else round(found[1] - found[0], 3)
 
 
-def hole_rows(kinds: tuple[Kind, ...], origin: Point) -> list[Row]:
-    """The table of holes."""
+def hole_rows(kinds: tuple[Kind, ...], origin: Point, part: str) -> list[Row]:
+    """The table of holes; of very many it has the kinds alone, and the file that has their places."""
     rows = [Row(("Hole", "X", "Y", "is"), head=True)]
+    many = sum(len(kind.holes) for kind in kinds) > MOST_HOLES
     for kind in kinds:
-        several = len(kind.holes) > 1
+        several = len(kind.holes) > 1 or many
         if several:
             rows.append(Row((f"{kind.letter}  {len(kind.holes)} x", "", "", kind.words)))
-        for name, hole in named(kind):
+        for name, hole in () if many else named(kind):
             x, y = (number(value) for value in shifted(hole.centre, origin))
             rows.append(Row((name, x, y, "" if several else kind.words)))
+    if many:
+        rows.append(Row((f"{part}.dxf has their places", "", "", "")))
     return rows
 
 
@@ -98,10 +108,10 @@ def named(kind: Kind) -> Iterator[tuple[str, Hole]]:
 def corner_rows(found: tuple[Contour, ...], origin: Point, name: str, tolerances: Tolerances) -> list[Row]:
     """The table of corners; where curves make a contour, the file that has it and its tolerance."""
     if not is_table(found):
-        settings = tolerances.settings
+        settings, alike = tolerances.settings, Counter(one.words for one in found)
         return [
             Row(("Contours", "", "", ""), head=True),
-            *(Row((one.name, "", "", one.words)) for one in found if len(found) > 1),
+            *(Row((f"{many} x {words}", "", "", "")) for words, many in alike.items() if len(found) > 1),
             Row((f"{name}.dxf has the nominal curves", "", "", "")),
             Row((f"walls {number(-settings.gouge)} to +{number(settings.leftover)} off them", "", "", "")),
         ]
@@ -123,10 +133,10 @@ def measure_rows(part: Part) -> list[Row]:
     """Sizes to measure that no view shows, such as those over pins."""
     if not part.measures:
         return []
-    rows = [Row(("To be measured", "least", "greatest", ""), head=True)]
-    for one in part.measures:
-        least, greatest = (number(one.nominal if v is None else v) for v in (one.least, one.greatest))
-        rows.append(Row((one.what, least, greatest, "")))
+    rows = [Row(("To be measured", "size", "least", "greatest"), head=True)]
+    for one in part.measures[:MOST_MEASURES]:
+        sizes = ("–" if v is None else number(v) for v in (one.nominal, one.least, one.greatest))
+        rows.append(Row((one.what, *sizes)))
     return rows
 
 
@@ -137,7 +147,7 @@ def plate_sheet(told: PlateDrawing, title: TitleBlock) -> Sheet:
     blocks = [
         rows
         for rows in (
-            hole_rows(found, origin) if found else [],
+            hole_rows(found, origin, part.name) if found else [],
             corner_rows(shapes, origin, part.name, told.tolerances),
             measure_rows(part),
         )
@@ -288,7 +298,7 @@ def _views(
     room = shapely.box(left - ROW, low - FREE + 3.0, right + FREE - 1.0, top + EDGE - 1.0)
     labels = Labels(sheet, [points for _, points in lines], room)
     base = _datum_hole(told)
-    for kind in found:
+    for kind in found if sum(len(kind.holes) for kind in found) <= MOST_HOLES else ():
         for name, hole in named(kind):
             middle = to(hole.centre)
             if base is not None and hole.centre == base.centre:

@@ -1,41 +1,30 @@
 """The drawings of plates as files of a build."""
 
-from mechwright.pipeline import Build, FileName, Page, Wanted
+from typing import TYPE_CHECKING
 
-SUFFIXES = ("-drawing.dxf", "-drawing.pdf")
-"""Of the files of one drawing; ``NAME.dxf`` is the outline for machines."""
+from mechwright.pipeline import Build
+from mechwright_cad.sheet.page import PartDrawings
+
+if TYPE_CHECKING:
+    from mechwright.contracts.part import Part
+    from mechwright_cad.sheet.sheet import Sheet
+    from mechwright_cad.sheet.title import TitleBlock
 
 
-class PlateDrawings(Page):
+class PlateDrawings(PartDrawings):
     """``NAME-drawing.dxf`` and ``NAME-drawing.pdf`` of every plate that is made."""
 
     name = "plate-drawings"
-    commands = frozenset({"model", "build"})
     doing = "drawings of plates"
+    suffixes = ("-drawing.dxf", "-drawing.pdf")  # NAME.dxf is the outline for machines
 
-    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
-        """Those of every plate."""
-        plates = [part.name for part in build.parts if part.kind == "plate"]
-        return [
-            FileName(name + suffix, f"the drawing of part {name}") for name in plates for suffix in SUFFIXES
-        ]
+    def is_shown(self, part: "Part") -> bool:
+        """Plates."""
+        return part.kind == "plate"
 
-    def files(self, build: Build) -> dict[str, bytes]:
-        """File name to content; none where nothing is cut from a plate."""
-        parts = [part for part in build.parts if part.kind == "plate"]
-        if not parts:
-            return {}
+    def sheet(self, part: "Part", build: Build, title: "TitleBlock") -> "Sheet":
+        """Plan, edge and tables, with the tolerances of the design."""
         from mechwright.pipeline.tolerances import TolerancesTable
         from mechwright_cad.plate_drawing.drawing import PlateDrawing, plate_sheet
-        from mechwright_cad.sheet.files import files
-        from mechwright_cad.sheet.settings import DrawingTable
-        from mechwright_cad.sheet.title import TitleBlock
 
-        made: dict[str, bytes] = {}
-        design = build.design
-        block, tolerances = TitleBlock(design.name, design.table(DrawingTable)), design.table(TolerancesTable)
-        for part in parts:
-            sheet = plate_sheet(PlateDrawing(part, tolerances), block)
-            first, second = (part.name + suffix for suffix in SUFFIXES)
-            made |= files(sheet, (first, second), f"{design.name}: {part.name}", block)
-        return made
+        return plate_sheet(PlateDrawing(part, build.design.table(TolerancesTable)), title)

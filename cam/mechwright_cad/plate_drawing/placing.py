@@ -5,7 +5,6 @@ from collections.abc import Sequence
 
 import shapely
 
-from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
 from mechwright_cad.sheet.geometric import HIGH, boxed
 from mechwright_cad.sheet.sheet import Sheet, Stroke, Text, width_of
@@ -24,7 +23,7 @@ _FLAT = 0.1
 
 
 class Labels:
-    """Labels of a view, one after the other."""
+    """Labels of a view, one after the other. One without room is left out: the table has its place."""
 
     def __init__(self, sheet: Sheet, lines: Sequence[Sequence[Point]], room: shapely.Polygon) -> None:
         self.sheet = sheet
@@ -38,27 +37,32 @@ class Labels:
         if outwards is not None and outwards != (0.0, 0.0):
             first = math.atan2(outwards[1], outwards[0])
             ways = sorted(_WAYS, key=lambda way: abs(math.remainder(way - first, math.tau)))
-        step, way, box = self._place((width_of(text, SMALL), SMALL), at, radius, ways)
+        place = self._place((width_of(text, SMALL), SMALL), at, radius, ways)
+        if place is None:
+            return
+        step, way, box = place
         self.sheet.add(Text(box.bounds[:2], text, "DIM", height=SMALL))
         self._leader(at, radius, step, way, box)
 
     def put_square(self, letter: str, at: Point, radius: float) -> None:
         """A letter in a square beside a circle: the sign of a datum."""
-        step, way, box = self._place((HIGH, HIGH), at, radius, _WAYS)
+        place = self._place((HIGH, HIGH), at, radius, _WAYS)
+        if place is None:
+            return
+        step, way, box = place
         x0, y0, x1, y1 = box.bounds
         boxed(self.sheet, letter, ((x0 + x1) / 2, (y0 + y1) / 2))
         self._leader(at, radius, step, way, box)
 
     def _place(
         self, size: tuple[float, float], at: Point, radius: float, ways: Sequence[float]
-    ) -> tuple[float, float, shapely.Polygon]:
+    ) -> tuple[float, float, shapely.Polygon] | None:
         boxes = [(step, way, _box(size, at, radius + step, way)) for step in _STEPS for way in ways]
         free = next((one for one in boxes if self._is_free(one[2], lines=True)), None)
         if free is None:
             free = next((one for one in boxes if self._is_free(one[2], lines=False)), None)
-        if free is None:
-            raise GeometryError("no room for a label")
-        self._taken.append(free[2].buffer(_AIR))
+        if free is not None:
+            self._taken.append(free[2].buffer(_AIR))
         return free
 
     def _leader(self, at: Point, radius: float, step: float, way: float, box: shapely.Polygon) -> None:

@@ -7,11 +7,14 @@ from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 
-from mechwright.errors import DesignError
+from mechwright.errors import DesignError, MechwrightError
 from mechwright.reading import read_bytes
 
 ENCODING = "cp1252"
 """Letters that a PDF shows in Helvetica, which every reader has."""
+
+KEPT = frozenset(["cmap", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "name", "OS/2", "post"])
+"""Tables of a font that a PDF needs, or its subset; all others, such as kerning, are left out."""
 
 _EM = 1000
 """Units of widths in a PDF."""
@@ -62,19 +65,27 @@ def embedded(data: bytes, texts: Iterable[str], name: str) -> Embedded:
 
 @lru_cache(maxsize=16)
 def _embedded(data: bytes, letters: str, name: str) -> Embedded:
-    from fontTools import subset
-    from fontTools.ttLib import TTFont, TTLibError
-
     try:
-        font = TTFont(io.BytesIO(data), recalcTimestamp=False)
-        known, outlines = font.getBestCmap() or {}, "glyf" in font
-    except (TTLibError, AssertionError, ValueError, KeyError, EOFError) as error:
-        raise DesignError(f"{name} is no TrueType font; take a file that ends in .ttf") from error
-    if not outlines:
+        return _subset(data, letters, name)
+    except MechwrightError:
+        raise
+    except Exception as error:  # whatever the reader of fonts meets in a file that is none
+        raise DesignError(f"{name} is no TrueType font that can be read; take another .ttf") from error
+
+
+def _subset(data: bytes, letters: str, name: str) -> Embedded:
+    from fontTools import subset
+    from fontTools.ttLib import TTFont
+
+    font = TTFont(io.BytesIO(data), recalcTimestamp=False)
+    known = font.getBestCmap() or {}
+    if "glyf" not in font:
         raise DesignError(f"{name} has no TrueType outlines; take a file that ends in .ttf")
     missing = [letter for letter in letters if ord(letter) not in known]
     if missing:
         raise DesignError(f"{name} has no letter {missing[0]!r}; set drawings.font to a .ttf that has it")
+    for table in set(font.keys()) - KEPT - {"GlyphOrder"}:
+        del font[table]
     options = subset.Options(hinting=False, layout_features=[], name_IDs=[], recalc_timestamp=False)
     cutter = subset.Subsetter(options)
     cutter.populate(unicodes=[ord(letter) for letter in letters])

@@ -1,17 +1,16 @@
 """Datums and frames of geometrical tolerances (ISO 5459, ISO 1101)."""
 
-import math
 from typing import Literal
 
 from mechwright.geometry.segments import Point
-from mechwright_cad.sheet.circles import arc, ring
+from mechwright_cad.sheet.circles import ring
 from mechwright_cad.sheet.sheet import Fill, Sheet, Text, width_of
 from mechwright_cad.sheet.tables import SMALL
 
 HIGH = 5.0
 """Height of a frame, mm: twice its letters."""
 
-Symbol = Literal["position", "perpendicularity", "profile"]
+Symbol = Literal["position", "perpendicularity"]
 
 
 def datum(sheet: Sheet, letter: str, foot: Point, way: Point) -> None:
@@ -58,6 +57,3 @@ def _symbol(sheet: Sheet, middle: Point, symbol: Symbol) -> None:
         case "perpendicularity":
             sheet.lines([(x - 1.5, y - 1.5), (x + 1.5, y - 1.5)], "DIM")
             sheet.lines([(x, y - 1.5), (x, y + 1.5)], "DIM")
-        case "profile":
-            sheet.lines([(x - 1.7, y - 0.8), (x + 1.7, y - 0.8)], "DIM")
-            sheet.lines(arc((x, y - 0.8), 1.7, 0.0, math.pi), "DIM")

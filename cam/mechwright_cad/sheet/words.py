@@ -4,7 +4,7 @@ PLAIN = "Ra 3.2"
 """Roughness of surfaces that have none of their own, µm."""
 
 GENERAL = (
-    "Tolerances ISO 2768-mK, principle ISO 8015",
+    "Dimensions in mm, tolerances ISO 2768-mK, principle ISO 8015",
     f"Surfaces {PLAIN}, edges broken 0.2 (ISO 13715)",
 )
 """What holds for a whole part."""

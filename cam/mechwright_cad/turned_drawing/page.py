@@ -1,39 +1,28 @@
 """The drawings of turned parts as files of a build."""
 
-from mechwright.pipeline import Build, FileName, Page, Wanted
+from typing import TYPE_CHECKING
 
-SUFFIXES = (".dxf", ".pdf")
-"""Of the files of one drawing."""
+from mechwright.pipeline import Build
+from mechwright_cad.sheet.page import PartDrawings
+
+if TYPE_CHECKING:
+    from mechwright.contracts.part import Part
+    from mechwright_cad.sheet.sheet import Sheet
+    from mechwright_cad.sheet.title import TitleBlock
 
 
-class TurnedDrawings(Page):
+class TurnedDrawings(PartDrawings):
     """``NAME.dxf`` and ``NAME.pdf`` of every turned part."""
 
     name = "turned-drawings"
-    commands = frozenset({"model", "build"})
     doing = "drawings of turned parts"
 
-    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
-        """Those of every turned part."""
-        turned = [part.name for part in build.parts if part.kind == "turned"]
-        return [
-            FileName(name + suffix, f"the drawing of part {name}") for name in turned for suffix in SUFFIXES
-        ]
+    def is_shown(self, part: "Part") -> bool:
+        """Turned parts."""
+        return part.kind == "turned"
 
-    def files(self, build: Build) -> dict[str, bytes]:
-        """File name to content; none where nothing is turned."""
-        parts = [part for part in build.parts if part.kind == "turned"]
-        if not parts:
-            return {}
-        from mechwright_cad.sheet.files import files
-        from mechwright_cad.sheet.settings import DrawingTable
-        from mechwright_cad.sheet.title import TitleBlock
+    def sheet(self, part: "Part", build: Build, title: "TitleBlock") -> "Sheet":  # noqa: ARG002
+        """Side and cuts."""
         from mechwright_cad.turned_drawing.drawing import turned_sheet
 
-        made: dict[str, bytes] = {}
-        block = TitleBlock(build.design.name, build.design.table(DrawingTable))
-        for part in parts:
-            sheet = turned_sheet(part, block)
-            first, second = (part.name + suffix for suffix in SUFFIXES)
-            made |= files(sheet, (first, second), f"{build.design.name}: {part.name}", block)
-        return made
+        return turned_sheet(part, title)

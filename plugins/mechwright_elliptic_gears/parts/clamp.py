@@ -18,7 +18,7 @@ from mechwright.mechanics.strength.bolts import (
     stress_area,
     tightening_torque,
 )
-from mechwright.standards.screws import ENGAGEMENT, ScrewSize, lengths, screw_size
+from mechwright.standards.screws import ScrewSize, least_engaged, lengths, screw_size
 from mechwright_elliptic_gears.kinematics.equations import phase_offset
 from mechwright_elliptic_gears.parameters import EllipticGearParams, cap_screws
 
@@ -163,7 +163,7 @@ def ring_and_length(params: EllipticGearParams, screw: float) -> tuple[float, fl
 
 def least_thread(params: EllipticGearParams, screw: float) -> float:
     """Length of thread, mm, that screws need in gear 3."""
-    return ENGAGEMENT[params.material] * screw
+    return least_engaged(params.material) * screw
 
 
 def _up(radius: float) -> float:

@@ -13,7 +13,7 @@ from mechwright import Bore, Turned
 from mechwright.contracts.details import Thread
 from mechwright.contracts.turned import Step
 from mechwright.mechanics.gearing.checks import LEAST_RIM
-from mechwright.standards.screws import ENGAGEMENT, Screw, lengths, screw
+from mechwright.standards.screws import Screw, least_engaged, lengths, screw
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.dividing import START, Dividing
 from mechwright_elliptic_gears.parts.gear import rack_of, room
@@ -81,7 +81,7 @@ def keeper_for(params: EllipticGearParams, dividing: Dividing, head: tuple[float
     """The keeper of a pin with a head of that diameter and height, mm; None where there is no room."""
     low = head[1] + PLAY
     under, most = low + PLATE, low + PLATE + params.thickness - PLAY
-    wanted = [one for one in lengths(SIZE) if under + ENGAGEMENT[params.material] * SIZE <= one <= most]
+    wanted = [one for one in lengths(SIZE) if under + least_engaged(params.material) * SIZE <= one <= most]
     if not wanted:
         return None
     chosen = screw(SIZE, wanted[0])

@@ -15,7 +15,7 @@ from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.turned import EndThread, Length, Turned, tube
 from mechwright.errors import DesignError
 from mechwright.standards.circlips import Circlip, shaft_circlip
-from mechwright.standards.screws import ENGAGEMENT, Screw, lengths, screw, screw_size
+from mechwright.standards.screws import Screw, least_engaged, lengths, screw, screw_size
 from mechwright.standards.shims import THICKNESSES, Shim, shim_on
 from mechwright_elliptic_gears.parameters import EllipticGearParams
 from mechwright_elliptic_gears.parts.layout import Layout
@@ -128,7 +128,9 @@ def _screw(bore: float, room: float) -> Screw | None:
     """The largest that has its head in the room, and whose thread leaves a shaft its strength."""
     for size in SIZES:
         if size <= bore / 2 and screw_size(size).head_height <= room:
-            return screw(size, next(one for one in lengths(size) if one >= DISC + ENGAGEMENT["steel"] * size))
+            return screw(
+                size, next(one for one in lengths(size) if one >= DISC + least_engaged("steel") * size)
+            )
     return None
 
 

@@ -12,7 +12,7 @@ from mechwright.contracts.part import Bore
 from mechwright.mechanics.linkage import PIN_MATERIAL, Boss, bushing_part
 from mechwright.mechanics.linkage.outlines import bores
 from mechwright.standards.parts import GREY
-from mechwright.standards.screws import ENGAGEMENT, Screw, lengths, screw
+from mechwright.standards.screws import Screw, least_engaged, lengths, screw
 from mechwright_slider_crank.parts.dimensions import Dimensions
 
 SIZES = (6.0, 5.0, 4.0, 3.0)
@@ -95,7 +95,7 @@ def rail_screws(
     for size in SIZES:
         if size > SHARE * sizes.rail or place - size < sizes.dowel:
             continue
-        least, most = grip + ENGAGEMENT[material] * size, grip + thickness
+        least, most = grip + least_engaged(material) * size, grip + thickness
         fitting = [one for one in lengths(size) if least <= one <= most]
         if fitting:
             return RailScrews(screw(size, fitting[-1]), (-place, place))

@@ -16,7 +16,7 @@ from mechwright.machine.frame.pillars import put_screw
 from mechwright.machine.frame.plates import Hole
 from mechwright.machine.frame.seats import LEAST_WALL
 from mechwright.machine.frame.standing import Disc
-from mechwright.standards.screws import ENGAGEMENT, screw
+from mechwright.standards.screws import least_engaged, screw
 
 BALLS = (
     "Push the carriage from the plastic bar on which it comes straight onto its rail, and never let it off: "
@@ -68,7 +68,7 @@ def add_slideway(kit: Kit, way: Slideway, material: str) -> None:
     kit.places["guide-carriage"] = Place((*way.carriage, 0.0), turned(way.angle), way.body)
     kit.bought("guide-carriage", guide.carriage, "guide-carriage", way.low)
     kit.parts["guide-carriage"] = replace(kit.parts["guide-carriage"], marks=(FittingMark(BALLS),))
-    found = screw(size, guide.seat + ENGAGEMENT[material] * size)
+    found = screw(size, guide.seat + least_engaged(material) * size)
     for k, along in enumerate(guide.holes, start=1):
         kit.parts["lower-plate"] = threaded(kit.parts["lower-plate"], _name(k), f"M{size:g}")
         kit.places[f"{_name(k)}-screw"] = Place((*way.at(along), 0.0))
