@@ -51,12 +51,12 @@ def run(folder: Path, *words: str) -> tuple[int, str]:
 
 CASES = {
     "a tool longer than the machine's travel": (
-        'tools = ["drill-10", "mill-6", "mill-3", "spot-6"]\n[cam.machine]\ntravel_z = 60\n',
-        r"cam\.machine\.travel_z: drill-10 with its holder needs 132 mm .* over part gear; take a shorter tool",
+        'tools = ["drill-10", "mill-6", "mill-3", "spot-6"]\n[cam.machine]\nnose_to_table = 60\n',
+        r"cam\.machine\.nose_to_table: drill-10 in its holder needs \d+ mm .* over part gear, and there are 60; take a shorter tool",
     ),
     "a tool that sticks out further than the travel": (
-        'tools = ["mill-6", "mill-3"]\n[cam.machine]\ntravel_z = 30\n',
-        r"cam\.machine\.travel_z: .*mill-6",
+        'tools = ["mill-6", "mill-3"]\n[cam.machine]\nnose_to_table = 30\n',
+        r"cam\.machine\.nose_to_table: .*mill-6",
     ),
     "a feature deeper than the flute": (
         'tools = ["mill-2", "mill-1"]\n',

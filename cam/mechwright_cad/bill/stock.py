@@ -136,7 +136,10 @@ def _plate(
     )
 
 
-_SURFACES = {"pom": "as extruded", "polycarbonate": "as extruded", "5083": "both sides milled"}
+_SURFACES = {
+    "pom": "as extruded", "polycarbonate": "as extruded", "hdpe": "as pressed", "acrylic": "as cast",
+    "plywood": "sanded", "mdf": "sanded", "5083": "both sides milled",
+}  # fmt: skip
 """Of plates that no mill has rolled."""
 
 

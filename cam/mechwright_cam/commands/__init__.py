@@ -256,17 +256,50 @@ class ShopFile(Command):
             str,
             typer.Option(metavar="NAME", help="Control of the mill.", autocompletion=completing.controls),
         ] = "",
-        machine: Annotated[str, typer.Option(metavar="NAME", help="The mill, by name.")] = "bench-mill",
+        machine: Annotated[
+            str, typer.Option(metavar="NAME", help="The mill, by name.", show_default="bench-mill")
+        ] = "",
+        mills: Annotated[
+            str,
+            typer.Option(
+                metavar="LIST",
+                help="Mills by diameter in mm: 3.175,2,1, or 3.175:1:17 with flutes and length.",
+            ),
+        ] = "",
+        sheet: Annotated[
+            list[str] | None,
+            typer.Option(
+                metavar="SHEET", help='A sheet in hand, such as "200x150x6 acrylic"; may be repeated.'
+            ),
+        ] = None,
+        spindle: Annotated[
+            str, typer.Option(metavar="RANGE", help="Speeds of the spindle in rev/min: 8000-24000.")
+        ] = "",
+        homing: Annotated[
+            bool | None,
+            typer.Option(
+                "--homing/--no-homing", help="Whether the machine has switches. Default: as it comes."
+            ),
+        ] = None,
+        gap: Annotated[
+            float | None,
+            typer.Option(metavar="MM", help="From the table to the nose of the spindle with Z fully up."),
+        ] = None,
+        spoil_board: Annotated[
+            float | None, typer.Option(metavar="MM", help="Thickness of the board under the stock.")
+        ] = None,
         force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     ) -> None:
         """Write a shop file to start from.
 
         It has tools, mill, control, units and stock in hand. Name it in a design file: shop = "shop.toml".
-        Its tools take the place of the built-in ones.
+        Its tools take the place of the built-in ones. With --mills it is that of a small machine, whose
+        cutting data are estimated. On a terminal, with no option, questions are asked.
         """
         from mechwright_cam.commands import shop_file
 
-        shop_file.shop_file(output, library, units, control, machine, force=force)
+        bench = shop_file.BenchWords(mills, tuple(sheet or ()), spindle, homing, gap, spoil_board)
+        shop_file.shop_file(output, library, units, control, machine, bench, force=force)
 
 
 @hookimpl

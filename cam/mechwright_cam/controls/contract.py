@@ -157,6 +157,22 @@ class Control(Plugin):
         """What the control cannot do of what a design file asks for."""
         return ()
 
+    def check_zero(self, settings: "CamSettings") -> "Sequence[Finding]":
+        """What it cannot do without machine zero: change tools within a program."""
+        from mechwright.contracts.finding import Finding
+
+        if settings.machine.homed:
+            return ()
+        if self.by_hand != "files":
+            lack = f"{self.title} changes tools at the upper end of Z, which a machine without zero does not know"
+            remedy = 'write homing = "marks", and home by hand at marks on the axes before each job'
+            return (Finding.error("cam.homing", "cam.machine.homing", lack, remedy=remedy),)
+        if settings.post.tool_change == "pause":
+            lack = "at a stop the tool stands low, as the machine has no zero that it could go up to"
+            remedy = "leave tool_change out: each tool then has a file of its own"
+            return (Finding.error("cam.homing", "cam.post.tool_change", lack, remedy=remedy),)
+        return ()
+
     def check_tools(self, settings: "CamSettings", tools: "Sequence[Tool]") -> "Sequence[Finding]":  # noqa: ARG002
         """What the control cannot do with the tools of a job, whose lengths are those measured."""
         return ()

@@ -41,7 +41,8 @@ class GcodeControl(Subprograms):
         self.safe_start(out)
         if program.posting.offsets:
             self.set_offsets(out)
-        self.retract(out)
+        if program.machine.homed:  # else the first section says what its zero is before anything moves
+            self.retract(out)
         for place, section in enumerate(program.sections):
             if place and program.posting.optional_stops and out.lines[-1] != self.m(0):
                 out.line(self.m(1))
@@ -87,7 +88,7 @@ class GcodeControl(Subprograms):
 
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """What the control cannot do of what a design file asks for: work offset, cutter compensation."""
-        found, rows = [], self.work_offsets
+        found, rows = list(self.check_zero(settings)), self.work_offsets
         for offset in settings.offsets:
             if not any(row.has(offset) for row in rows):
                 lack = f"{self.title} has no work offset {offset}"

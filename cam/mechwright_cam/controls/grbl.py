@@ -107,7 +107,7 @@ class Grbl(Measuring, GcodeControl):
     def check(self, settings: CamSettings) -> Sequence[Finding]:
         """Also: the retract must stay off the homing switch, and mist is an option of the build."""
         found, height = list(super().check(settings)), self.upper_end(settings.machine)
-        if height >= 0:
+        if settings.machine.homed and height >= 0:
             where, message = "cam.machine.retract_z", "machine Z0 is where the homing switch is"
             remedy = "retract below it, by more than the pull-off ($27), such as -2"
             found.append(Finding.warning("cam.retract", where, message, height, 0.0, "mm", remedy))
@@ -118,11 +118,31 @@ class Grbl(Measuring, GcodeControl):
         return found
 
     def needs(self, settings: CamSettings) -> Sequence[str]:
-        """Homing, for machine coordinates, and a build with mist."""
-        said = [
-            "Home the machine first ($22=1, then $H): G53 goes to machine coordinates, which without homing "
-            "are those of where it was switched on."
-        ]
+        """Homing, or what stands in for it; the scale of S; senders; a build with mist."""
+        machine = settings.machine
+        if machine.homed:
+            said = [
+                "Home the machine first ($22=1, then $H): G53 goes to machine coordinates, which without "
+                "homing are those of where it was switched on."
+            ]
+        else:
+            said = [
+                "The programs use the work zero alone: no homing ($22=0), no soft limits ($20=0).",
+                "Type $1=255 before zero is set: the motors then hold the axes while a tool is changed.",
+                "The zero is lost with the power, by a reset in motion and by an alarm, though $# still "
+                "shows it: set X, Y and Z anew.",
+            ]
+        if machine.speed_by_hand:
+            said.append("Speeds are set at the spindle's dial: S does nothing.")
+        else:
+            said.append(
+                f"Type $30={machine.spindle_max:g} and $31=0: S is in rev/min, and at another $30 the "
+                "spindle turns at another speed."
+            )
+        said.append(
+            "Senders such as UGS, bCNC, gSender, cncjs and Candle take the files as they are; none of the "
+            "files has a tool change (M6)."
+        )
         if settings.coolant == "mist":
             said.append("Mist (M7) takes a Grbl that was built with ENABLE_M7; others stop with error 20.")
         return said
@@ -130,6 +150,13 @@ class Grbl(Measuring, GcodeControl):
     def check_tools(self, settings: CamSettings, tools: Sequence[Tool]) -> Sequence[Finding]:
         """A tool that is loaded at a stop has to have a known length."""
         taps = super().check_tools(settings, tools)
+        known = [tool.name for tool in tools if tool.length is not None]
+        if known and not settings.machine.homed:
+            message = (
+                f"a length of {known[0]} is given, and without machine zero every tool is touched off anew"
+            )
+            remedy = "leave the lengths out"
+            taps = [*taps, Finding.error("cam.homing", "cam.measured.lengths", message, remedy=remedy)]
         unknown = [tool.name for tool in tools if tool.length is None]
         if settings.post.tool_change != "pause" or not unknown:
             return taps
@@ -199,7 +226,11 @@ class Grbl(Measuring, GcodeControl):
         if section.tool.number == out.tool:
             return
         out.tool = section.tool.number
+        if not out.program.machine.homed:
+            out.line(out.program.work_offset)
         out.line(f"T{section.tool.number}")
+        if not out.program.machine.homed:
+            self.retract(out)
         if out.program.posting.tool_change != "files":
             self.message(out, self._load(section, out.program))
             out.line(self.m(0))

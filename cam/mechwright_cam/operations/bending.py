@@ -34,6 +34,8 @@ MOST_FED = 2.0
 MOST = 0.02
 """Greatest deflection, mm, of a cut to size, before it is cut in thinner passes: half of it stays after a
 spring pass, at most."""
+OF_FORCE = 1 / 3
+"""Share of the force that a light machine bears which is left for walls: what gives way there is seen."""
 OF_ALLOWANCE = 0.25
 """Greatest deflection of a roughing cut in what it leaves on walls. Finishing then takes a quarter more or
 less than planned, and chips that get too thick for that are fed more slowly."""
@@ -53,11 +55,34 @@ def pass_depth(job: Job, tool: Tool, deep: float, *, to_size: bool = False) -> f
     It is the ``step_down`` of its cutting data; of a slender mill no more than bends it by what
     :func:`most_bent` allows, unless the design itself says its ``step_down``.
     """
-    planned = tool.cutting[job.part.material].step_down * tool.diameter
+    planned = min(tool.cutting[job.part.material].step_down * tool.diameter, borne_depth(job, tool))
     if deep <= SLENDER * tool.diameter or says_step_down(job, tool):
         return planned
     bending = most_bent(job, to_size=to_size) / deflection(tool, job.part.material, deep, 1.0)
     return min(planned, max(bending, THINNEST * tool.diameter))
+
+
+def borne_depth(job: Job, tool: Tool, share: float = 1.0) -> float:
+    """Deepest slot, mm, in which a tooth takes no more than a share of the force that the machine bears."""
+    force, stuff = job.settings.machine.bears, material(job.part.material)
+    if math.isinf(force) or says_step_down(job, tool):
+        return math.inf
+    chip = tool.cutting[job.part.material].chip_load
+    return share * force / (stuff.force * chip ** (1 - stuff.force_exponent))
+
+
+def borne_wall(job: Job, tool: Tool) -> float:
+    """Deepest pass, mm, along a wall in which a tooth takes a third of that force off the allowance.
+
+    Without a bound where no tooth in a helix has so long an edge in the allowance at once.
+    """
+    wide = min(job.settings.stock_to_leave, tool.radius) / tool.diameter
+    if wide <= 0:
+        return math.inf
+    angle = math.acos(1 - 2 * wide)
+    thinner = math.sin(min(angle, math.pi / 2)) ** (1 - material(job.part.material).force_exponent)
+    most = borne_depth(job, tool, OF_FORCE) / thinner
+    return math.inf if tool.radius * angle / HELIX <= most else most
 
 
 def says_step_down(job: Job, tool: Tool) -> bool:

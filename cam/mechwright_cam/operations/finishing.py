@@ -10,7 +10,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.part import Bore
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.operations.bending import MOST, wall_bending
+from mechwright_cam.operations.bending import MOST, borne_wall, wall_bending
 from mechwright_cam.operations.choice import HEAVY
 from mechwright_cam.operations.clearing import CLEAR
 from mechwright_cam.operations.pen import Pen, levels
@@ -42,11 +42,12 @@ def finish_depth(job: Job, tool: Tool, high: float, deep: float, inside: float =
     It is as deep as the wall where that bends the mill next to nothing: a pass that is half as deep bends its
     end hardly less, for the load is nearer to the end, and leaves a line. Else it is :data:`FINISH_STEP`
     diameters; or what ``finish_step`` says. A pass has no larger section than a slot as deep as
-    ``step_down``: its width is that of the allowance, and more in a bore of radius ``inside``.
+    ``step_down``: its width is that of the allowance, and more in a bore of radius ``inside``. A tooth takes no
+    more than what a light machine bears.
     """
     settings = job.settings
     wide = finish_width(settings, tool.radius, inside)
-    section = _slot(tool, job.part.material) / max(wide, TOLERANCES.noise)
+    section = min(_slot(tool, job.part.material) / max(wide, TOLERANCES.noise), borne_wall(job, tool))
     if settings.finish_step is not None:
         return min(settings.finish_step * tool.diameter, section)
     usual = FINISH_STEP * tool.diameter

@@ -94,7 +94,7 @@ def rates(
         return _tapping(tool, tool.pitch, wanted, machine)
     fed = machine.max_feed / (tool.flutes * data.chip_load)
     wanted = min(wanted, max(fed, SLOWEST * wanted))
-    spindle = float(round(min(max(wanted, machine.spindle_min), machine.spindle_max)))
+    spindle = machine.speed(wanted)
     most = spindle * tool.flutes * data.chip_load
     thin = math.sin(min(engagement, math.pi / 2)) * float(approach(tool, depth))
     thinning = 1 / max(thin, 1 / MOST_THINNING)

@@ -25,6 +25,7 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.limits import check_machine
 from mechwright_cam.setup.measured import check_measured
 from mechwright_cam.setup.nest import Nest
+from mechwright_cam.shop.estimates import completed, rigidity_of
 from mechwright_cam.shop.library import Library, load_library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.shop_table import shop_of
@@ -40,8 +41,11 @@ def plates(parts: Sequence[Part]) -> list[Part]:
     return [part for part in parts if part.outline is not None and part.bought is None]
 
 
-def library_of(design: Design) -> Library:
-    """The cutters at hand; the name of one that is none of them is a mistake in the file."""
+def library_of(design: Design, materials: Sequence[str] = ()) -> Library:
+    """The cutters at hand, with estimates for these materials where they have no data.
+
+    The name of one that is none of them is a mistake in the file.
+    """
     settings = settings_of(design)
     shop = shop_of(design)
     library = load_library(settings.tool_library, None if shop is None else shop.library)
@@ -53,7 +57,8 @@ def library_of(design: Design) -> Library:
                 library.get(name)
             except ToolError as error:
                 raise ToolError(f"{design.path}: {where}.{key}: {error}") from error
-    return library.cutting(settings.cam.cutting)
+    estimated = completed(library.tools, materials, settings.cam.machine)
+    return replace(library, tools=estimated).cutting(settings.cam.cutting)
 
 
 class Preparation:
@@ -71,8 +76,8 @@ class Preparation:
 
     def __init__(self, design: Design, parts: Sequence[Part], assignments: Assignments) -> None:
         self.design, self.assignments = design, assignments
-        self.settings, self.shop, self.library = settings_of(design), shop_of(design), library_of(design)
-        self.plates = plates(parts)
+        self.settings, self.shop, self.plates = settings_of(design), shop_of(design), plates(parts)
+        self.library = library_of(design, sorted({part.material for part in self.plates}))
 
     @cached_property
     def cut(self) -> list[Part]:
@@ -126,7 +131,7 @@ class Preparation:
         if len(tops) == len(self.cut):
             findings = merged_tool_findings(findings, _used(jobs, self.assignments))
             findings += self._as_cut(tops)
-            findings += self._unused_data(jobs)
+            findings += [*self._unused_data(jobs), *_estimated(jobs, self.assignments)]
         return findings, jobs
 
     def _of_part(self, part: Part, cam: CamSettings) -> tuple[list[Finding], list[Job]]:
@@ -240,6 +245,23 @@ def worn(jobs: Sequence[Job]) -> Iterator[Finding]:
 def _used(jobs: Sequence[Job], assignments: Assignments) -> set[str]:
     """Names of the tools that do something in some job."""
     return {use.tool.name for job in jobs for use in uses(job, assignments.of(job))}
+
+
+def _estimated(jobs: Sequence[Job], assignments: Assignments) -> Iterator[Finding]:
+    """Tools that cut with data which nobody has given."""
+    found: dict[str, dict[str, None]] = {}
+    for job in jobs:
+        for use in uses(job, assignments.of(job)):
+            if use.tool.is_estimated(job.part.material):
+                found.setdefault(job.part.material, {})[use.tool.name] = None
+    for name, tools in found.items():
+        machine = jobs[0].settings.machine
+        message = (
+            f"speeds and depths of {', '.join(tools)} in {name} are estimates for a machine of class "
+            f"{rigidity_of(machine)}: watch the first cut"
+        )
+        remedy = "give what works in [cam.cutting.NAME], or in the tool's table of the shop file"
+        yield Finding("cam.estimated", Severity.NOTE, "cam.cutting", message, remedy=remedy)
 
 
 def _incomplete(library: Library, path: Path) -> Iterator[Finding]:

@@ -1,5 +1,6 @@
 """Which cutters a part needs."""
 
+import math
 from collections.abc import Sequence, Set
 from dataclasses import replace
 from itertools import product
@@ -27,7 +28,7 @@ from mechwright_cam.planning.assign import Assignments, assign
 from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
-from mechwright_cam.setup.limits import height_of
+from mechwright_cam.setup.limits import fits_collet, height_of
 from mechwright_cam.setup.plate import plate_box
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
@@ -51,7 +52,7 @@ def choose_tools(
     stock; for every wall the largest mill that leaves no more than the tolerance in its corners, or else the
     one that leaves least; a mill for the bores; the largest drills that fit, and a spot drill for them. Mills
     are flat, but for a floor with a fillet, which takes a round one. Only mills long enough for the cut and
-    with cutting data for the material count, and cutters that get over the part within the machine's travel.
+    with cutting data for the material count, and cutters that the spindle holds and that get over the part.
 
     Raises ToolError where a name is not in the library (close matches are listed), or no cutter can make it.
     """
@@ -66,7 +67,7 @@ def choose_tools(
     operations = assignments.operations(settings)
     useless = assignments.untapped(library)
     library = Library(tuple(tool for tool in library.tools if tool.name not in useless))
-    library = _low_enough(part, settings, library)
+    library = _usable(part, settings, library)
     slow = _slow_enough(part, settings, library)
     if len(slow.tools) < len(library.tools):
         try:
@@ -154,15 +155,20 @@ def _without_entries(job: Job, operations: Sequence[Operation]) -> dict[str, flo
     return found
 
 
-def _low_enough(part: Part, settings: CamSettings, library: Library) -> Library:
-    """The cutters that get over the part; all of them if no mill of these cuts through it.
+def _usable(part: Part, settings: CamSettings, library: Library) -> Library:
+    """The cutters that the spindle holds and that get over the part; all if no mill of these cuts through it.
 
     The refusal that follows then names the machine.
     """
-    travel, through = settings.machine.travel_z, part.thickness + settings.breakthrough
-    low = tuple(tool for tool in library.tools if height_of(tool, settings, part.thickness) <= travel)
-    cuts = any(tool.kind in MILLS and tool.flute_length >= through for tool in low)
-    return Library(low) if cuts else library
+    machine, through = settings.machine, part.thickness + settings.breakthrough
+    nose = math.inf if machine.nose_to_table is None else machine.nose_to_table
+    usable = tuple(
+        tool
+        for tool in library.tools
+        if height_of(tool, settings, part.thickness) <= nose and fits_collet(tool, machine)
+    )
+    cuts = any(tool.kind in MILLS and tool.flute_length >= through for tool in usable)
+    return Library(usable) if cuts else library
 
 
 def _slow_enough(part: Part, settings: CamSettings, library: Library) -> Library:

@@ -15,9 +15,15 @@ from mechwright_cam.proof.scene import Scene, first
 
 
 def positions(scene: Scene) -> Check:
-    """No feed and no low or sideways rapid starts at a place or height that the program never stated."""
+    """No feed and no low or sideways rapid starts at a place or height that the program never stated.
+
+    On a machine without zero the first rapid of Z alone starts where the operator has left the tool.
+    """
     run = scene.run
-    sideways = np.nan_to_num(run.end[:, :2] - run.start[:, :2], nan=1.0).any(axis=1)
+    away = run.end[:, :2] - run.start[:, :2]
+    if not scene.job.settings.machine.homed:
+        away[np.isnan(run.end[:, :2]) & np.isnan(run.start[:, :2])] = 0.0
+    sideways = np.nan_to_num(away, nan=1.0).any(axis=1)
     unknown = ~np.isfinite(run.start).all(axis=1) | ~np.isfinite(run.end).all(axis=1)
     lost = np.isnan(run.start[:, 2]) | np.isnan(run.end[:, 2])
     rapid = run.kind == Kind.RAPID
@@ -54,6 +60,11 @@ def machine_moves(scene: Scene) -> Check:
     holds it. A point in the work by which G28 and G30 go is the end of a rapid like any other.
     """
     run = scene.run
+    if not scene.job.settings.machine.homed:
+        if (step := first(run.kind == Kind.HOME)) is not None:
+            message = "goes to a machine coordinate, and the machine has no zero; write a place in the work"
+            return scene.bad(step, message)
+        return Check(True, "no move is in machine coordinates, which the machine does not have")
     start, end = run.start[:, 2], run.end[:, 2]  # NaN, an unknown height, is no safe one
     home = run.kind == Kind.HOME
     step = first(home & run.machine_xy & ~(np.isposinf(start) & np.isposinf(end)))

@@ -101,7 +101,10 @@ def tools(scene: Scene) -> Check:
 def tool_change(scene: Scene) -> Check:
     """Tools are changed at a safe height."""
     run = scene.run
-    if (step := first((run.kind == Kind.TOOL) & ~(run.end[:, 2] >= scene.clear))) is not None:
+    changes = run.kind == Kind.TOOL
+    if not scene.job.settings.machine.homed:  # the first one of a file says what is in the spindle already
+        changes[_of_files(run, np.flatnonzero(changes))] = False
+    if (step := first(changes & ~(run.end[:, 2] >= scene.clear))) is not None:
         return scene.bad(step, f"a tool is changed without a retract; before it {retract(scene)}")
     return Check(True, "tools are changed at the machine's upper end")
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from mechwright.designs.inches import Units
 from mechwright.designs.text import toml
+from mechwright_cam.shop.bench import Bench, Sheet
 from mechwright_cam.shop.toml_text import tool_table
 from mechwright_cam.shop.tool import Tool
 from mechwright_cam.shop.workshop import LAYOUT
@@ -14,6 +15,47 @@ PINS = {"mm": (3.0, 4.0, 5.0, 6.0, 8.0), "inch": (0.125, 0.25)}
 """The same of its pins."""
 HOLDER = {"mm": 40.0, "inch": 1.575}
 """Diameter of a collet chuck's nut, in both."""
+
+
+def bench_text(of: Bench, tools: Sequence[Tool], sheets: Sequence[Sheet]) -> str:
+    """The shop of a small machine: tools without cutting data get estimates when a part is cut."""
+    known = f"machine = {toml(of.model)}"
+    if of.changes:
+        known = "\n".join(
+            [
+                "",
+                "[machine]",
+                f"model = {toml(of.model)}",
+                *(f"{k} = {toml(v)}" for k, v in of.changes.items()),
+            ]
+        )
+    head, rest = ([known], []) if not of.changes else ([], [known])
+    lines = [
+        "# A shop: its machine, its mills, its sheets. Name it in the head of a design file:",
+        '#   shop = "shop.toml"',
+        f"format = {LAYOUT}",
+        'name = "my bench"',
+        f"control = {toml(of.control)}",
+        *head,
+        *rest,
+    ]
+    for sheet in sheets:
+        lines += [
+            "",
+            "[[stock]]",
+            f"material = {toml(sheet.material)}",
+            f"thickness = [{sheet.thickness:g}]  # measure it: plywood is up to 0.8 thinner, acrylic a tenth off",
+            f"length = {sheet.length:g}",
+            f"width = {sheet.width:g}",
+        ]
+    lines += ["", "[prefer.cam]", f"coolant = {toml(of.preset.coolant)}", ""]
+    for tool in tools:
+        lines += [
+            tool_table(tool).rstrip(),
+            "# cutting.acrylic = { cutting_speed = 75, chip_load = 0.03, step_down = 0.2 }",
+            "",
+        ]
+    return "\n".join(lines)
 
 
 def shop_text(tools: Sequence[Tool], units: Units, control: str, machine: str) -> str:

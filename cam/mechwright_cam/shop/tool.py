@@ -1,5 +1,6 @@
 """Cutters, and how they cut a material."""
 
+import math
 from collections.abc import Iterable
 from enum import StrEnum
 from typing import Annotated, Any, Literal, Self
@@ -52,6 +53,10 @@ REAMED = 0.26
 """How far in from its rim a reamer cuts, mm: half of the greatest allowance, and a last digit."""
 
 
+GRIP = 12.0
+"""Least length of shank in a collet, mm."""
+
+
 class CuttingData(Parameters):
     """How a tool cuts one material."""
 
@@ -89,6 +94,9 @@ class CuttingTable(dict[str, CuttingData]):
     >>> table["1.4301"].cutting_speed, "C45" in table, "7075" in table
     (60.0, True, False)
     """
+
+    estimated: frozenset[str] = frozenset()
+    """Materials whose data nobody has given."""
 
     def __missing__(self, name: str) -> CuttingData:
         known = MATERIALS.get(name)
@@ -156,6 +164,9 @@ class Tool(Parameters):
     holder_diameter: Millimetres = Field(
         40.0, gt=0, le=200, description="Diameter of the holder's lower end; a collet chuck by default."
     )
+    overall: Millimetres | None = Field(
+        None, gt=0, le=400, description="Its whole length, if known: the collet needs 12 of it."
+    )
     holder: str = Field("", max_length=40, description="Its holder, as the setup sheet names it.")
     purpose: str = Field("", max_length=80, description="Purpose, as lists and sheets print it.")
     wear_length: Millimetres = Field(
@@ -215,6 +226,10 @@ class Tool(Parameters):
             raise ValueError("a bull-nose mill has a corner_radius, and no other tool has one")
         if self.stick_out is not None and self.stick_out < self.flute_length:
             raise ValueError("stick_out must be at least flute_length: flutes do not cut inside the holder")
+        if self.overall is not None and self.overall - GRIP < (self.stick_out or self.flute_length):
+            raise ValueError(
+                f"overall leaves less than {GRIP:g} mm for the collet: it holds on the shank alone"
+            )
         return self
 
     def _tap(self) -> None:
@@ -228,6 +243,17 @@ class Tool(Parameters):
                     f"in {name} the chip_load of a tap is its pitch over its flutes, "
                     f"{self.pitch / self.flutes:g} mm; leave it out"
                 )
+
+    def is_estimated(self, name: str) -> bool:
+        """Whether its cutting data for a material are an estimate."""
+        return isinstance(self.cutting, CuttingTable) and name in self.cutting.estimated
+
+    @property
+    def longest_stick_out(self) -> float:
+        """Greatest length out of the holder, mm; infinite where its length is not known."""
+        if self.stick_out is not None:
+            return self.stick_out
+        return math.inf if self.overall is None else self.overall - GRIP
 
     @property
     def point_length(self) -> float:

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field
 
 from mechwright.contracts.materials import MaterialName
+from mechwright.contracts.own_materials import OwnMaterial
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.inches import Units
 from mechwright.units import Millimetres
@@ -63,6 +64,9 @@ class Workshop(Parameters):
     )
     holder: dict[str, Holder] = Field(default_factory=dict, description="Holders by name.")
     tool: tuple[Tool, ...] = Field((), description="The tools.")
+    material: dict[Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_.-]{0,39}$")], OwnMaterial] = Field(
+        default_factory=dict, max_length=100, description="Materials besides the built-in ones, by name."
+    )
     stock: tuple[Plates, ...] = Field((), description="Plates in hand; none: whatever a part asks for.")
     screws: tuple[Annotated[str, AfterValidator(_screw)], ...] = Field(
         (), max_length=50, description="Threads of the screws that are kept, such as M5; empty: all."

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.own_materials import OwnMaterial, add_materials
 from mechwright.designs.files import beside, read_toml
 from mechwright.designs.inches import converted, told_in, units_of
 from mechwright.designs.tables import read_table
@@ -44,6 +45,11 @@ class Shop:
     library: Library
     files: Mapping[str, Path]
     """Further files that it names, by the names it gives them."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """In another process its materials are known as well."""
+        self.__dict__.update(state)
+        add_materials(self.workshop.material)
 
     @property
     def lends(self) -> dict[str, dict[str, Any]]:
@@ -92,11 +98,14 @@ def read_shop(path: Path, said: str = "") -> Shop:
         content = converted(content, schema())
     with told_in(units):
         machine = content.get("machine")
-        if isinstance(machine, str):
+        own = machine if isinstance(machine, Mapping) else {}
+        model = machine if isinstance(machine, str) else own.get("model")
+        if isinstance(model, str) and model:
             with _named(path, "machine"):
-                content = {**content, "machine": machine_figures(machine, path)}
-            if machine.endswith(".toml"):
-                files[machine] = beside(path, machine, "machine")
+                content = {**content, "machine": {**machine_figures(model, path), **own}}
+            if model.endswith(".toml"):
+                files[model] = beside(path, model, "machine")
+        _add_materials(content, path)
         tools = tuple(_tools(content, path))
         workshop = read_table(Workshop, {**content, "tool": ()}, str(path), "shop")
         _check_preferred(workshop, path)
@@ -114,6 +123,21 @@ def read_shop(path: Path, said: str = "") -> Shop:
         except DesignError as error:
             raise DesignError(f"{path}: {error}") from error
     return Shop(path, said, workshop, library, files)
+
+
+def _add_materials(content: Mapping[str, Any], path: Path) -> None:
+    """Let tools, stock and designs name the shop's own materials."""
+    tables = content.get("material", {})
+    if not isinstance(tables, Mapping):
+        raise DesignError(f"{path}: material: is {tables!r}; write tables [material.NAME]")
+    add_materials({})
+    read = {
+        name: read_table(OwnMaterial, table, str(path), f"material.{name}") for name, table in tables.items()
+    }
+    try:
+        add_materials(read)
+    except DesignError as error:
+        raise DesignError(f"{path}: {error}") from error
 
 
 @contextmanager

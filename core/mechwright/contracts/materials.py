@@ -10,12 +10,14 @@ those of carbide. The specific cutting force is Kienzle's, k_c = k_c1.1 h^-m wit
 * brass: CuZn37 in Tschätsch, Praxis der Zerspantechnik (free-cutting CuZn39Pb3 takes 550, with 0.25);
 * steel: S235JR in the same book (C45 takes 2220, with 0.14);
 * acetal: no source agrees with another; 100 to 200 are named, so this is an upper bound;
-* polycarbonate: cut as acetal, with a sharp edge and air.
+* polycarbonate: cut as acetal, with a sharp edge and air;
+* acrylic, polyethylene, plywood, fibreboard: estimates from the settings that makers of small routers publish.
 
 What a cutter's maker says of it counts more than any of this.
 
 A design file names a group, ``"aluminium"``, or a grade of it, ``"7075"``. A group is ordered in its usual
 grade. A grade has a strength and a density of its own, and is cut as its group, stainless steel more slowly.
+A shop file may add materials of its own: see :mod:`mechwright.contracts.own_materials`.
 
 Glossary
 --------
@@ -25,13 +27,16 @@ group
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Annotated, TypeVar
+from typing import Annotated, Literal, TypeVar
 
 from pydantic import AfterValidator, Field
 
 from mechwright.errors import DesignError
 
 T = TypeVar("T")
+
+Kind = Literal["wood", "plastic", "soft metal", "steel"]
+"""By which small machines choose their chips."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +84,12 @@ class Material:
         Whether chips of a drill do not break by themselves.
     grades
         What is ordered; handbook, unchecked.
+    kind
+        By which chips are estimated where a cutter has no data.
+    melts
+        Whether the least usual speed is the best: warm chips stick to the edge.
+    advice
+        A sentence for the setup sheets, about people or chips; empty where there is nothing to say.
     pace
         Cutting speed in that of its group.
     """
@@ -96,7 +107,15 @@ class Material:
     expansion: float
     long_chips: bool
     grades: Grades
+    kind: Kind = "steel"
+    melts: bool = False
+    advice: str = ""
     pace: float = 1.0
+
+    @property
+    def soft(self) -> bool:
+        """Whether it creeps or crushes under a head, and around what is pressed in."""
+        return self.kind in {"plastic", "wood"}
 
     @property
     def unbroken(self) -> float:
@@ -118,16 +137,100 @@ _GRADES = {
     "steel": Grades("S355J2+N (1.0577)", "C45+C (1.0503)", "ASTM A572 grade 50", "1045 cold drawn"),
     "pom": Grades("POM-C", "POM-C", "acetal copolymer", "acetal copolymer"),
     "polycarbonate": Grades("PC, clear", "PC, clear", "polycarbonate, clear", "polycarbonate, clear"),
+    "acrylic": Grades("PMMA, cast", "PMMA, cast", "acrylic, cast", "acrylic, cast"),
+    "hdpe": Grades("PE-HD 300", "PE-HD 300", "HDPE", "HDPE"),
+    "plywood": Grades("birch plywood", "beech dowel rod", "baltic birch plywood", "hardwood dowel rod"),
+    "mdf": Grades("MDF", "beech dowel rod", "MDF", "hardwood dowel rod"),
 }
 
+_DUST = "The dust harms the lungs: cut with extraction, and wear a mask of class P2."
+_AIR = "Chips melt onto a dull edge: take a sharp cutter with one flute, and blow air on the cut."
+_STATIC = "Adhesive tape does not hold it: use clamps or screws."
+
+_Figures = tuple[float, float, float, float, tuple[float, float], tuple[float, float], float, float, float]
+
+
+def _group(
+    name: str, kind: Kind, figures: _Figures, *, long_chips: bool, melts: bool = False, advice: str = ""
+) -> Material:
+    """A group by density, modulus, Poisson's ratio, strength, speeds, chip loads, force, exponent, expansion."""
+    return Material(
+        name,
+        name,
+        *figures,
+        long_chips=long_chips,
+        grades=_GRADES[name],
+        kind=kind,
+        melts=melts,
+        advice=advice,
+    )
+
+
 GROUPS = {
-    name: Material(name, name, *figures, long_chips=long_chips, grades=_GRADES[name])
-    for name, figures, long_chips in (
-        ("aluminium", (2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25, 23.4), True),
-        ("brass", (8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, 21.0), False),
-        ("steel", (7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17, 11.5), True),
-        ("pom", (1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20, 110.0), True),
-        ("polycarbonate", (1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20, 65.0), True),
+    one.name: one
+    for one in (
+        _group(
+            "aluminium",
+            "soft metal",
+            (2.70, 70_000, 0.33, 250, (100, 500), (0.004, 0.015), 700, 0.25, 23.4),
+            long_chips=True,
+        ),
+        _group(
+            "brass",
+            "soft metal",
+            (8.50, 97_000, 0.34, 250, (80, 300), (0.003, 0.012), 780, 0.18, 21.0),
+            long_chips=False,
+        ),
+        _group(
+            "steel",
+            "steel",
+            (7.85, 210_000, 0.30, 355, (50, 160), (0.002, 0.008), 1780, 0.17, 11.5),
+            long_chips=True,
+        ),
+        _group(
+            "pom",
+            "plastic",
+            (1.41, 2_800, 0.35, 65, (100, 500), (0.005, 0.025), 200, 0.20, 110.0),
+            long_chips=True,
+        ),
+        _group(
+            "polycarbonate",
+            "plastic",
+            (1.20, 2_350, 0.38, 60, (100, 500), (0.005, 0.025), 200, 0.20, 65.0),
+            long_chips=True,
+            melts=True,
+            advice=_AIR,
+        ),
+        _group(
+            "acrylic",
+            "plastic",
+            (1.19, 3_100, 0.37, 70, (50, 300), (0.005, 0.03), 200, 0.20, 70.0),
+            long_chips=True,
+            melts=True,
+            advice=_AIR,
+        ),
+        _group(
+            "hdpe",
+            "plastic",
+            (0.95, 1_000, 0.42, 22, (150, 500), (0.005, 0.03), 100, 0.20, 150.0),
+            long_chips=True,
+            melts=True,
+            advice=_STATIC,
+        ),
+        _group(
+            "plywood",
+            "wood",
+            (0.65, 8_000, 0.30, 30, (100, 600), (0.005, 0.05), 50, 0.40, 8.0),
+            long_chips=False,
+            advice=_DUST,
+        ),
+        _group(
+            "mdf",
+            "wood",
+            (0.75, 3_000, 0.25, 18, (100, 600), (0.005, 0.05), 40, 0.40, 10.0),
+            long_chips=False,
+            advice=_DUST,
+        ),
     )
 }
 """Materials that are cut alike, by name."""
@@ -223,12 +326,22 @@ def entry(table: Mapping[str, T], name: str) -> T | None:
     return table[name] if name in table else table.get(material(name).group)
 
 
+NEVER = {
+    "pvc": "its chips and dust give off hydrogen chloride when they get hot; take pom or hdpe",
+    "vinyl": "it is PVC: its chips give off hydrogen chloride when they get hot; take pom or hdpe",
+}
+"""Materials that nobody should cut, with the reason."""
+
+
 def material(name: str) -> Material:
-    """Look a material up; raises DesignError that lists the known ones."""
+    """Look a material up; raises DesignError that lists the known ones, or says why one is not cut."""
     try:
         return MATERIALS[name]
     except KeyError:
-        raise DesignError(f"material {name!r} is not known; one of: {', '.join(sorted(MATERIALS))}") from None
+        pass
+    if (why := NEVER.get(name.casefold())) is not None:
+        raise DesignError(f"material {name!r} is not cut: {why}")
+    raise DesignError(f"material {name!r} is not known; one of: {', '.join(sorted(MATERIALS))}")
 
 
 MaterialName = Annotated[

@@ -6,7 +6,7 @@ from functools import cache
 from typing import Literal
 
 from mechwright.contracts.bought import Bought
-from mechwright.contracts.materials import entry
+from mechwright.contracts.materials import entry, material
 from mechwright.contracts.shape import Revolve, Shape, hexagon, ring
 from mechwright.contracts.threads import COARSE
 from mechwright.errors import DesignError
@@ -27,8 +27,9 @@ SET_GRADE = "45H"
 
 ENGAGEMENT = {
     "steel": 1.0, "brass": 1.3, "aluminium": 1.5, "5754": 2.0, "5083": 2.0, "pom": 2.5, "polycarbonate": 2.5,
+    "acrylic": 2.5, "hdpe": 3.0, "plywood": 4.0, "mdf": 5.0,
 }  # fmt: skip
-"""Least length of thread in a material, in diameters; handbook, unchecked. In POM an insert is better."""
+"""Least length of thread in a material, in diameters; handbook, unchecked. In POM and wood an insert is better."""
 
 
 def least_engaged(name: str) -> float:
@@ -148,17 +149,13 @@ class Washer:
         )
 
 
-SOFT = frozenset({"pom", "polycarbonate"})
-"""Materials that creep under a head."""
-
-
-def needs_washer(size: float, hole: float, material: str) -> bool:
-    """Whether the head of a screw M ``size`` lies on a washer: over a coarse hole, mm, and on plastics.
+def needs_washer(size: float, hole: float, plate: str) -> bool:
+    """Whether the head of a screw M ``size`` lies on a washer: over a coarse hole, mm, and on soft plates.
 
     >>> needs_washer(5, 5.5, "aluminium"), needs_washer(5, 6.0, "aluminium"), needs_washer(5, 5.5, "pom")
     (False, True, True)
     """
-    return material in SOFT or hole >= screw_size(size).clearance("coarse")
+    return material(plate).soft or hole >= screw_size(size).clearance("coarse")
 
 
 FRAME = 5.0

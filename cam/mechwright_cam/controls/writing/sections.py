@@ -150,8 +150,11 @@ class Sections(Drilling):
             out.staged = 0
 
     def go_home(self, out: Writer) -> None:
-        """Bring the table where the machine file wants it at the end."""
+        """Bring the table where the machine file wants it at the end; without machine zero to X0 Y0."""
         machine = out.program.machine
+        if not machine.homed:
+            out.line(out.motion_word("G0"), *out.axis_words(0.0, 0.0, None))
+            return
         self._machine_place(out, machine.home_x, machine.home_y)
 
     def _machine_place(self, out: Writer, x: float | None, y: float | None) -> None:

@@ -1,5 +1,6 @@
 """What a control spells its own way: its words, its comments, and the few lines that differ."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
@@ -93,14 +94,20 @@ class Spelling(Control):
         return " ".join([self.setting_words(offset), *axes])
 
     def retract(self, out: Writer) -> None:
-        """Go to the machine's upper end."""
+        """Go to the machine's upper end; without machine coordinates, to the height of rapids."""
+        if not out.program.machine.homed:
+            out.motion, out.z = "", math.nan
+            out.line(out.motion_word("G0"), *out.axis_words(None, None, out.program.clearance, rapid=True))
+            return
         for line in self.retract_lines(self.upper_end(out.program.machine)):
             out.line(line)
         out.motion = self.retract_motion
         out.lost_height()
 
     def retract_words(self, machine: Machine) -> str:
-        """What goes to the upper end of a machine."""
+        """What goes to the upper end of a machine, or above everything in the work."""
+        if not machine.homed:
+            return "G0 Z, in a line of its own, to the height of rapids"
         return ", then ".join(self.retract_lines(self.upper_end(machine)))
 
     def tool_change(self, out: Writer, section: ToolSection) -> None:

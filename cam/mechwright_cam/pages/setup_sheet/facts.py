@@ -11,14 +11,12 @@ from mechwright_cam.pages.picture import tool_colours
 from mechwright_cam.pages.trace import Stroke, Traced
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.limits import HOLDER_GAP
 from mechwright_cam.shop.lengths import MILLIMETRES, Lengths
 from mechwright_cam.shop.tool import Tool, ToolKind
 
 MARKED = 3
 """So many places of each kind are marked on the walls."""
-
-HOLDER_GAP = 3.0
-"""Air between the holder and the highest thing below it, mm: chips pack in less."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +152,7 @@ def reach(traced: Sequence[Traced]) -> tuple[float, float, float, float] | None:
         for stroke in item.strokes:
             if stroke.feed <= 0:
                 continue
-            points = [stroke.start[:2], stroke.end[:2], *_turning_points(stroke)]
+            points = [stroke.start[:2], stroke.end[:2], *turning_points(stroke)]
             xs, ys = zip(*points, strict=True)
             boxes.append((min(xs) - radius, min(ys) - radius, max(xs) + radius, max(ys) + radius))
     if not boxes:
@@ -163,7 +161,7 @@ def reach(traced: Sequence[Traced]) -> tuple[float, float, float, float] | None:
     return min(x0), min(y0), max(x1), max(y1)
 
 
-def _turning_points(stroke: Stroke) -> list[Point]:
+def turning_points(stroke: Stroke) -> list[Point]:
     """Where an arc passes the directions of the axes: there it reaches out furthest."""
     if stroke.centre is None:
         return []

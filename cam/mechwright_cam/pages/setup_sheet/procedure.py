@@ -29,7 +29,7 @@ from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
 
 TO_SIZE = "Set D, and bring the part to size"
-BEFORE = "Look at the control's settings"
+BEFORE = "Look at the machine and its control"
 CHECK_HEIGHT = 50.0
 """Height over the stock at which a tool's length is checked by eye before the first cut, mm."""
 
@@ -54,6 +54,7 @@ def steps(
     by_file: bool = False,
     probing: str = "",
     measuring: Sequence[str] = (),
+    by_hand: Sequence[str] = (),
 ) -> list[Step]:
     """The steps in order.
 
@@ -75,13 +76,15 @@ def steps(
         The file of the program that probes the zero, if there is one.
     measuring
         The files of those that measure tools.
+    by_hand
+        Sentences about what is done at the machine before the start.
     """
     offset, to = control.offset_words(job.settings.work_offset), Lengths(control.units)
     over = job.side == "underside"
-    by_hand = not control.offsets.lengths
-    touched = by_hand and not _in_program(job, control, tools)
+    no_table = not control.offsets.lengths
+    touched = no_table and not _in_program(job, control, tools)
     used = [tool for tool in job.tools if tool.number in tools]
-    needs = tuple(control.needs(job.settings))
+    needs = (*control.needs(job.settings), *by_hand)
     if control.leftover:
         needs += (f"The program does not take back {control.leftover}.",)
     return [
@@ -97,7 +100,7 @@ def steps(
         ),
         *(
             [_touch_off(job, control, tools, by_file=by_file)]
-            if by_hand
+            if no_table
             else [_lengths(offset, tools, control, with_d=bool(offsets)), _check(offset, tools, control)]
         ),
         *([Step("Or measure", about_measuring(job, control, measuring, to))] if measuring else []),
@@ -205,6 +208,14 @@ def _touch_off(job: Job, control: Control, tools: Sequence[int], *, by_file: boo
             "Z reads h" + (", for each on its own plate." if job.settings.more_offsets else "."),
             "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
         ]
+        if not job.settings.machine.homed:
+            lines.append(
+                "Without a setter, lower the tool by 0.1 mm at a time until a sheet of paper below it just drags, "
+                f"and set Z to the thickness of the paper: {control.height_words(job.settings.work_offset, '0.1')}".replace(
+                    "G10 L2 ", "G10 L20 "
+                )
+                + "."
+            )
         if not by_file:
             lines.append(
                 "At a stop the control by itself can neither jog nor probe: the sender has to hold the stop "

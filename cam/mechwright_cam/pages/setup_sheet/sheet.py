@@ -14,6 +14,7 @@ from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.pages.picture.isometric import isometric_view
 from mechwright_cam.pages.setup_sheet import facts
 from mechwright_cam.pages.setup_sheet.compensation import value
+from mechwright_cam.pages.setup_sheet.hand_machine import by_hand_lines, room_of
 from mechwright_cam.pages.setup_sheet.inspection import inspection
 from mechwright_cam.pages.setup_sheet.levels import side_view
 from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, steps
@@ -96,6 +97,14 @@ def setup_html(
             probing=probing + control.suffix if probing else "",
             measuring=[name + control.suffix for name in measuring],
             by_file=program.posting.tool_change == "files",
+            by_hand=tuple(
+                by_hand_lines(
+                    job,
+                    room_of(traced, program.clearance),
+                    {section.tool.number: section.spindle for section in program.sections},
+                    to,
+                )
+            ),
         ),
         "origin": origin_words(job),
         "edges": datum_edges(job, to),

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from mechwright.contracts.finding import Change, Finding
-from mechwright.contracts.materials import entry
+from mechwright.contracts.materials import entry, material
 from mechwright.contracts.mounting import Mounting, Spindle
 from mechwright.machine.frame.fault import fault
 from mechwright.machine.frame.keys import Arrangement, FrameKeys
@@ -20,8 +20,8 @@ from mechwright.standards.circlips import Circlip, shaft_circlips
 ORDER = ("60", "62", "619", "618")
 """In which series are tried: the usual one, the heavier one on shafts that it alone has, thinner ones."""
 
-WALL, LEAST_WALL = {"steel": 0.15, "pom": 0.3, "polycarbonate": 0.3}, 4.0
-"""Wall around a bearing in shares of its outside, 0.2 of other materials, and at least, mm; handbook."""
+WALL, SOFT_WALL, LEAST_WALL = {"steel": 0.15}, 0.3, 4.0
+"""Wall around a bearing in shares of its outside, 0.2 of other metals, and at least, mm; handbook."""
 
 MOST_STEP = 2.0
 """By how much a circlip's shaft may be thinner than the hub's bore, mm: the ring still holds the hub."""
@@ -42,9 +42,11 @@ class Seat:
         return self.arrangement == "locating-free"
 
 
-def wall(outside: float, material: str) -> float:
-    """Around a bearing's outside, mm."""
-    return max(LEAST_WALL, (entry(WALL, material) or 0.2) * outside)
+def wall(outside: float, name: str) -> float:
+    """Around a bearing's outside in a plate of a material, mm."""
+    plate = material(name)
+    share = SOFT_WALL if plate.soft else entry(WALL, plate.name) or 0.2
+    return max(LEAST_WALL, share * outside)
 
 
 def circlip_over(bore: float) -> Circlip | None:

@@ -7,7 +7,7 @@ strengths, at most what the group bears where a handbook has no more.
 
 from dataclasses import dataclass
 
-from mechwright.contracts.materials import material
+from mechwright.contracts.materials import entry, material
 from mechwright.errors import DesignError
 
 
@@ -46,6 +46,10 @@ ALLOWED = {
     "brass": Allowed(100.0, 50.0, 60.0, 250.0, 250.0, 258.0),
     "pom": Allowed(25.0, 20.0, 20.0, 60.0, 40.0, 39.0),
     "polycarbonate": Allowed(8.0, 15.0, 8.0, 30.0, 30.0, 39.0),
+    "acrylic": Allowed(8.0, 12.0, 8.0, 30.0, 20.0, 30.0),
+    "hdpe": Allowed(5.0, 6.0, 5.0, 15.0, 10.0, 12.0),
+    "plywood": Allowed(8.0, 6.0, 6.0, 8.0, 5.0, 3.0),
+    "mdf": Allowed(4.0, 4.0, 3.0, 5.0, 3.0, 1.5),
     "5754": Allowed(60.0, 25.0, 38.0, 65.0, 80.0, 123.5),
     "6082": Allowed(95.0, 80.0, 60.0, 200.0, 200.0, 188.5),
     "7075": Allowed(160.0, 140.0, 100.0, 360.0, 360.0, 331.5),
@@ -79,7 +83,8 @@ PIN_BENDING = 250.0
 
 
 def allowed(name: str) -> Allowed:
-    """Of a material; raises DesignError that lists the known ones."""
-    if name not in ALLOWED:
+    """Of a material, or of its group; raises DesignError that lists the known ones."""
+    found = entry(ALLOWED, name)
+    if found is None:
         raise DesignError(f"no allowed stresses for {material(name).name}; one of: {', '.join(ALLOWED)}")
-    return ALLOWED[name]
+    return found
