@@ -32,6 +32,7 @@ class CamFollower(Family[CamParams]):
     name = "cam-follower"
     title = "Cam and follower"
     summary = "A disc cam gives a slide or a lever any motion of rises, dwells and returns."
+    size_keys: ClassVar[Mapping[str, float]] = {"base_radius": 40.0}
     Params = CamParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {"size": SizeRequirement}
     batch = 1 << 16

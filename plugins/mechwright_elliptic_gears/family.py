@@ -39,6 +39,7 @@ class EllipticGears(Family[EllipticGearParams]):
     name = "elliptic-gears"
     title = "Elliptic gears"
     summary = "A pair of congruent elliptic gears, or a train of two whose coupler draws a figure of eight."
+    size_keys: ClassVar[Mapping[str, float]] = {"semi_major": 50.0}
     Params = EllipticGearParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
     batch: ClassVar[int] = 100_000

@@ -35,6 +35,15 @@ class FiveBars(Family[FiveBarParams]):
     name = "five-bar"
     title = "Geared five-bar linkage"
     summary = "A crank, an arm that gears turn with it, and a coupler that carries a point between them."
+    size_keys: ClassVar[Mapping[str, float]] = {
+        "crank": 24.0,
+        "coupler": 82.0,
+        "rocker": 82.0,
+        "arm": 24.0,
+        "ground": 105.0,
+        "coupler_point_x": 40.0,
+        "coupler_point_y": 30.0,
+    }
     Params = CompleteParams
     batch = 1 << 16
     requirements: ClassVar = {"adjustable-path": AdjustablePathRequirement}

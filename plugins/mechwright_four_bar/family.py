@@ -46,6 +46,12 @@ class FourBars(Family[FourBarParams]):
     name = "four-bar"
     title = "Four-bar linkage"
     summary = "A turning crank, a coupler and a rocking or turning follower on a ground plate."
+    size_keys: ClassVar[Mapping[str, float]] = {
+        "crank": 30.0,
+        "coupler": 80.0,
+        "follower": 70.0,
+        "ground": 90.0,
+    }
     Params = FourBarParams
     batch = 1 << 16
     block = 1 << 14

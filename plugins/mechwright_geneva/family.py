@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, cast
 
-from mechwright import Family, Finding, Parameters, Stage, refuse
+from mechwright import DesignError, Family, Finding, Parameters, Stage, refuse
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.requirements import IndexingRequirement
 
@@ -35,6 +35,7 @@ class Geneva(Family[GenevaParams]):
     name = "geneva"
     title = "Geneva mechanism"
     summary = "An indexing wheel whose straight or curved slots give it a motion law, with its driver."
+    size_keys: ClassVar[Mapping[str, float]] = {"entry_radius": 100.0}
     Params = GenevaParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {"indexing": IndexingRequirement}
     batch: ClassVar[int] = 100_000
@@ -52,6 +53,20 @@ class Geneva(Family[GenevaParams]):
         from mechwright_geneva.defaults.dimensions import table_of
 
         return table_of(params, size)
+
+    def draft(self, source: str, text: str) -> GenevaParams:  # noqa: ARG002 - it reads no file
+        """Straight slots through the plate, or the law that is named."""
+        from typing import get_args
+
+        from mechwright_geneva.parameters import LawName
+
+        laws = [law for law in get_args(LawName) if law not in {"polynomial", "table"}]
+        law = source or "straight"
+        if law not in laws:
+            raise DesignError(
+                f"--from: {source!r} is not known; a Geneva wheel begins with: {', '.join(laws)}"
+            )
+        return GenevaParams(law=law)
 
     def remedy(self, params: GenevaParams, finding: Finding) -> Finding:
         """Another offset angle or roller, or sizes to leave out, that have been tried."""

@@ -55,7 +55,9 @@ class GenevaParams(Parameters):
         json_schema_extra=FIRST,
     )
     law: LawName = Field(
-        "cycloidal", description="How the wheel goes from rest to rest.", json_schema_extra=FIRST
+        "cycloidal",
+        description="How the wheel goes from rest to rest: straight slots with a jerk, curved ones smoothly.",
+        json_schema_extra=FIRST,
     )
     polynomial: Annotated[tuple[Coefficient, ...], Field(max_length=16)] | None = Field(
         None, description='Coefficients c0, c1, ... of s(u) for law = "polynomial"; s and u run from 0 to 1.'
@@ -171,6 +173,11 @@ class GenevaParams(Parameters):
     crank_thickness: Annotated[float, Field(ge=1, le=100), Unit("mm")] | None = Field(
         None,
         description="Thickness of the crank plate. Default: 8, with pins below 2 three and a half of them.",
+    )
+    disc_thickness: Annotated[float, Field(ge=1, le=200), Unit("mm")] | None = Field(
+        None,
+        description="Thickness of the locking disc. Default: the thinnest plate that is sold and locks the "
+        "wheel along its whole thickness.",
     )
     pin_diameter: Annotated[float, Field(ge=0.5, le=150), Unit("mm")] | None = Field(
         None,
@@ -295,6 +302,7 @@ class Sizes(GenevaParams):
     driver_bore: float
     pin_diameter: float
     crank_thickness: float
+    disc_thickness: float
     fixing: float
     load_inertia: float
     left_out: tuple[str, ...] = ()

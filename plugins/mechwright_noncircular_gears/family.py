@@ -35,6 +35,7 @@ class NoncircularGears(Family[NoncircularParams]):
     name = "noncircular-gears"
     title = "Non-circular gears"
     summary = "A pair of gears that turns one shaft by any law of the other, with lobes of any numbers."
+    size_keys: ClassVar[Mapping[str, float]] = {"module": 2.0}
     Params = SizedParams
     requirements: ClassVar[Mapping[str, type[Parameters]]] = REQUIREMENTS
     batch = 1 << 16

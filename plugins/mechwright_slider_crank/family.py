@@ -42,6 +42,7 @@ class SliderCrankFamily(Family[SliderCrankParams]):
     name = "slider-crank"
     title = "Slider-crank"
     summary = "A crank and a rod move a slider on a straight guide, central or offset, with a quick return."
+    size_keys: ClassVar[Mapping[str, float]] = {"crank": 30.0, "rod": 100.0, "offset": 10.0}
     Params = SliderCrankParams
     batch = 1 << 16
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {

@@ -26,6 +26,7 @@ class SpurGears(Family[SpurGearParams]):
         "Involute gears with profile shift, at the centre distance that you have; rings, planetary sets, "
         "racks."
     )
+    size_keys: ClassVar[Mapping[str, float]] = {"module": 2.0}
     Params = SpurGearParams
     batch: ClassVar[int] = 1 << 16
     counts: ClassVar[frozenset[str]] = frozenset({"teeth", "mate_teeth", "ring_teeth", "rack_teeth"})

@@ -164,7 +164,7 @@ class Control(Plugin):
         if settings.machine.homed:
             return ()
         if self.by_hand != "files":
-            lack = f"{self.title} changes tools at the upper end of Z, which a machine without zero does not know"
+            lack = f"{self.title} changes tools at the upper end of Z, unknown to a machine without zero"
             remedy = 'write homing = "marks", and home by hand at marks on the axes before each job'
             return (Finding.error("cam.homing", "cam.machine.homing", lack, remedy=remedy),)
         if settings.post.tool_change == "pause":

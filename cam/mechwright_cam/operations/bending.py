@@ -55,7 +55,7 @@ def pass_depth(job: Job, tool: Tool, deep: float, *, to_size: bool = False) -> f
     It is the ``step_down`` of its cutting data; of a slender mill no more than bends it by what
     :func:`most_bent` allows, unless the design itself says its ``step_down``.
     """
-    planned = min(tool.cutting[job.part.material].step_down * tool.diameter, borne_depth(job, tool))
+    planned: float = min(tool.cutting[job.part.material].step_down * tool.diameter, borne_depth(job, tool))
     if deep <= SLENDER * tool.diameter or says_step_down(job, tool):
         return planned
     bending = most_bent(job, to_size=to_size) / deflection(tool, job.part.material, deep, 1.0)
@@ -68,7 +68,7 @@ def borne_depth(job: Job, tool: Tool, share: float = 1.0) -> float:
     if math.isinf(force) or says_step_down(job, tool):
         return math.inf
     chip = tool.cutting[job.part.material].chip_load
-    return share * force / (stuff.force * chip ** (1 - stuff.force_exponent))
+    return float(share * force / (stuff.force * chip ** (1 - stuff.force_exponent)))
 
 
 def borne_wall(job: Job, tool: Tool) -> float:

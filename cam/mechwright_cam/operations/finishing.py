@@ -42,8 +42,8 @@ def finish_depth(job: Job, tool: Tool, high: float, deep: float, inside: float =
     It is as deep as the wall where that bends the mill next to nothing: a pass that is half as deep bends its
     end hardly less, for the load is nearer to the end, and leaves a line. Else it is :data:`FINISH_STEP`
     diameters; or what ``finish_step`` says. A pass has no larger section than a slot as deep as
-    ``step_down``: its width is that of the allowance, and more in a bore of radius ``inside``. A tooth takes no
-    more than what a light machine bears.
+    ``step_down``: its width is that of the allowance, and more in a bore of radius ``inside``. A tooth takes
+    no more than what a light machine bears.
     """
     settings = job.settings
     wide = finish_width(settings, tool.radius, inside)

@@ -6,6 +6,7 @@ from mechwright.remedies.keys import thickness_keys
 from mechwright.standards.stock import AS_THICK
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.holding import Stock
+from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.workshop_file import Shop
 
 
@@ -22,11 +23,10 @@ def from_hand(job: Job, shop: Shop, design: Design) -> tuple[Stock | None, list[
     thick = [row for row in mine if any(abs(one - thickness) <= AS_THICK for one in row.thickness)]
     if not thick:
         return None, [_no_thickness(job, shop, design)]
-    ready = [(row.length, row.width) for row in thick if row.length is not None and row.width is not None]
-    if stock.length is not None or len(ready) < len(thick):
+    sizes = blanks(shop, material, thickness, job.settings)
+    if not sizes:
         return None, []
     x0, y0, x1, y1 = job.stock
-    sizes = sorted({way for size in ready for way in (size, size[::-1])}, key=_by_area)
     fitting = [size for size in sizes if size[0] >= x1 - x0 and size[1] >= y1 - y0]
     if not fitting:
         return None, [_too_small(job, shop, sizes[-1])]
@@ -34,8 +34,27 @@ def from_hand(job: Job, shop: Shop, design: Design) -> tuple[Stock | None, list[
     return Stock(length=length, width=width, finished=stock.finished), []
 
 
-def _by_area(size: tuple[float, float]) -> tuple[float, float]:
-    return size[0] * size[1], size[1]
+def blanks(shop: Shop, material: str, thickness: float, settings: CamSettings) -> list[tuple[float, float]]:
+    """Lengths and widths of the ready blanks that a plate may be cut from, each lying both ways.
+
+    The smallest come first, of one blank the way in which it lies within the machine's travel. There are none
+    where a piece is sawn off as a part asks, or the design says length and width itself.
+    """
+    thick = [
+        row
+        for row in shop.workshop.stock
+        if row.material == material and any(abs(one - thickness) <= AS_THICK for one in row.thickness)
+    ]
+    ready = [(row.length, row.width) for row in thick if row.length is not None and row.width is not None]
+    if settings.stock.length is not None or len(ready) < len(thick):
+        return []
+    machine = settings.machine
+
+    def order(size: tuple[float, float]) -> tuple[float, float, float]:
+        beyond = max(size[0] - machine.travel_x, 0.0) + max(size[1] - machine.travel_y, 0.0)
+        return size[0] * size[1], beyond, size[1]
+
+    return sorted({way for size in ready for way in (size, size[::-1])}, key=order)
 
 
 def _no_thickness(job: Job, shop: Shop, design: Design) -> Finding:

@@ -7,6 +7,7 @@ that takes least stock is kept.
 
 import math
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,16 +20,18 @@ from mechwright.contracts.part import Part, check_name
 from mechwright.errors import DesignError, MechwrightError
 from mechwright_cam.operations.channel import channel_width
 from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.in_hand import blanks
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.setup.views import inside_of
-from mechwright_cam.shop.holding import Nesting
+from mechwright_cam.shop.holding import Nesting, Stock
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import JobSettings
 from mechwright_cam.shop.tool import MILLS, widest_mill
+from mechwright_cam.shop.workshop_file import Shop
 
 NEST_NAME = "cam.nest.name"
 """The key of the design file that names a nest, and with it its files."""
@@ -85,8 +88,11 @@ def arranged(
     parts: Sequence[Part],
     library: Library,
     assignments: Assignments | None = None,
+    shop: Shop | None = None,
 ) -> list[Part]:
     """The plate parts as they are cut: those that go together are one nest, at the place of the first.
+
+    A nest is laid on a blank that the ``shop`` has in hand, if one is large enough.
 
     Raises DesignError where a part of ``[cam.nest]`` is not known or does not go with the others, or the
     plate is too small.
@@ -105,7 +111,9 @@ def arranged(
         if name in (others := {part.name for part in parts}):
             other = free_name(f"{wanted.name}-nest", others)
             raise NestNameError(path, name, other)
-        nest = _nested(path, settings.of(name), wanted, name, group, library, assignments)
+        cam = settings.of(name)
+        sheets = [] if shop is None else blanks(shop, group[0].material, group[0].thickness, cam)
+        nest = _nested(path, cam, wanted, name, group, library, assignments, sheets)
         made |= {part.name: nest for part in group}
     return list({nest.name: nest for nest in (made.get(part.name, part) for part in parts)}.values())
 
@@ -161,6 +169,7 @@ def _nested(
     group: Sequence[Part],
     library: Library,
     assignments: Assignments | None,
+    sheets: Sequence[tuple[float, float]],
 ) -> Nest:
     total = sum(map(copies, group))
     if total > MOST:
@@ -171,6 +180,10 @@ def _nested(
             "none at a finished edge; leave finished out, or cam.nest"
         )
     gap = wanted.gap or 2 * channel_of(group, settings, library, assignments) + WEB
+    for length, width in sheets:
+        on_sheet = settings.model_copy(update={"stock": Stock(length=length, width=width)})
+        with suppress(DesignError):
+            return nest_of(name, group, on_sheet, gap, turn=wanted.turn)
     try:
         return nest_of(name, group, settings, gap, turn=wanted.turn)
     except DesignError as error:

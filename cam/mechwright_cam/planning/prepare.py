@@ -86,7 +86,7 @@ class Preparation:
         Raises DesignError where a nest is not possible, or ``[cam.part.NAME]`` names no plate and no nest.
         """
         path = self.design.path
-        cut = arranged(path, self.settings, self.plates, self.library, self.assignments)
+        cut = arranged(path, self.settings, self.plates, self.library, self.assignments, self.shop)
         known = sorted({part.name for part in (*self.plates, *cut)})
         for name in self.settings.parts:
             if name not in known:

@@ -1,8 +1,8 @@
 """What the machine is too small for, before any program is planned.
 
 Heights above the table: G the nose of the spindle at the upper end of Z, T the travel of Z, w the spoil
-board, t the stock, c what holds it above that, a the clearance of rapids, o how far cuts go below the stock. A tool
-that stands s out of the nose
+board, t the stock, c what holds it above that, a the clearance of rapids, o how far cuts go below the stock.
+A tool that stands s out of the nose
 
     reaches the deepest cut with       s >= (G - T) - (w - o),
     clears what stands on the table    s <= G - (w + t + c + a),
@@ -47,7 +47,7 @@ def chuck(settings: CamSettings) -> float:
 
 
 def least_stick_out(tool: Tool, settings: CamSettings, thickness: float) -> float:
-    """The least length of a tool out of its holder that cuts through the part, mm; its own where it is set."""
+    """Least length of a tool out of its holder for a cut through the part, mm; its own where it is set."""
     if tool.stick_out is not None:
         return tool.stick_out
     return min(tool.flute_length, thickness + settings.breakthrough) + held(settings) + HOLDER_GAP
@@ -118,8 +118,8 @@ def _room(job: Job, nose: float) -> Iterator[Finding]:
     wanted = 0.0 if longest is None else height_of(longest, settings, job.thickness)
     if longest is not None and wanted > nose:
         message = (
-            f"{longest.name} in its holder needs {wanted:.0f} mm between the table and the nose of the spindle "
-            f"to pass over part {part}, and there are {nose:g}"
+            f"{longest.name} in its holder needs {wanted:.0f} mm between the table and the nose of the "
+            f"spindle to pass over part {part}, and there are {nose:g}"
         )
         remedy = (
             "take a shorter tool, thinner stock or a thinner spoil board, or raise the spindle in its clamp"
@@ -129,7 +129,7 @@ def _room(job: Job, nose: float) -> Iterator[Finding]:
 
 
 def _depth(job: Job, lowest: float) -> Iterator[Finding]:
-    """Whether every tool gets down to the deepest cut: the nose goes no lower than ``lowest`` over the table."""
+    """Whether every tool gets down to the deepest cut: the nose stays ``lowest`` mm over the table."""
     settings, machine = job.settings, job.settings.machine
     wanted = lowest - max(machine.spoil_board - settings.breakthrough, 0.0)
     for tool in job.tools:
@@ -142,8 +142,8 @@ def _depth(job: Job, lowest: float) -> Iterator[Finding]:
             )
             board = math.ceil(machine.spoil_board + wanted - out)
             remedy = (
-                f"lay a spoil board of {board} mm under the stock (spoil_board = {board}), lower the spindle in "
-                "its clamp, or take a longer tool"
+                f"lay a spoil board of {board} mm under the stock (spoil_board = {board}), lower the spindle "
+                "in its clamp, or take a longer tool"
             )
             where = "cam.machine.nose_to_table"
             yield Finding.error("cam.tool-too-short", where, message, out, wanted, "mm", remedy)

@@ -19,7 +19,7 @@ WHOLE = {3.175: 38.0, 6.0: 50.0, 6.35: 50.0, 8.0: 60.0, 10.0: 72.0, 12.0: 83.0}
 FLUTES = 5.0
 """Usual length of the flutes in diameters."""
 NUTS = ((3.175, 16.0), (7.0, 19.0), (10.0, 28.0), (13.0, 34.0))
-"""Largest shank of a collet and the diameter of its nut, mm: router, ER11, ER16, ER20; else the default holder."""
+"""Largest shank of a collet and the diameter of its nut, mm: router, ER11, ER16, ER20."""
 
 _SIZE = re.compile(
     r"\s*(?P<x>[\d.]+)\s*x\s*(?P<y>[\d.]+)\s*x\s*(?P<z>[\d.]+)\s*(?P<unit>mm|in)?\s+(?P<name>\S+)\s*"
@@ -57,7 +57,8 @@ def sheet_of(text: str) -> Sheet:
     found = _SIZE.fullmatch(text)
     if found is None:
         raise DesignError(
-            f'--sheet: {text!r} should be length x width x thickness and a material, such as "200x150x6 acrylic"'
+            f"--sheet: {text!r} should be length x width x thickness and a material, such as "
+            '"200x150x6 acrylic"'
         )
     unit = found["unit"] or "mm"
     try:
@@ -105,7 +106,8 @@ def bench(
         changes |= _speeds(spindle)
     elif "spindle" in preset.unknown:
         raise DesignError(
-            f"--machine: {figures['name']} comes without a spindle; give the speeds of yours: --spindle 10000-30000"
+            f"--machine: {figures['name']} comes without a spindle; give the speeds of yours: "
+            "--spindle 10000-30000"
         )
     if homing is not None:
         changes["homing"] = "switches" if homing else "none"
@@ -115,8 +117,8 @@ def bench(
         changes["spoil_board"] = board
     if not (control or preset.control):
         raise DesignError(
-            f"--machine: {figures['name']} reads {preset.reads}, for which no program is written here; if yours "
-            "has another control, name it: --control grbl"
+            f"--machine: {figures['name']} reads {preset.reads}, for which no program is written here; if "
+            "yours has another control, name it: --control grbl"
         )
     machine = Machine.model_validate({**figures, **changes})
     return Bench(model, changes, machine, preset, control or preset.control)
@@ -130,7 +132,7 @@ def _speeds(text: str) -> dict[str, object]:
 
 
 def mills_of(text: str, of: Bench, sheets: list[Sheet]) -> tuple[Tool, ...]:
-    """Mills from a text such as ``3.175,2,1``: diameters in mm, each with its flutes and their length if known.
+    """Mills from a text such as ``3.175,2,1``: diameters in mm, with flutes and their length if known.
 
     ``3.175:1:17`` has one flute 17 mm long. By default one flute, two where all sheets are of wood.
     """
@@ -140,7 +142,8 @@ def mills_of(text: str, of: Bench, sheets: list[Sheet]) -> tuple[Tool, ...]:
         match = re.fullmatch(r"(?P<d>[\d.]+(?: ?in)?)(?::(?P<z>\d+))?(?::(?P<l>[\d.]+))?", word)
         if match is None:
             raise DesignError(
-                f"--mills: {word!r} should be a diameter, such as 3.175, or 3.175:1:17 with flutes and their length"
+                f"--mills: {word!r} should be a diameter, such as 3.175, or 3.175:1:17 with flutes and "
+                "their length"
             )
         try:
             size = convert(match["d"] if "in" in match["d"] else f"{match['d']} mm", "mm")
@@ -153,8 +156,8 @@ def mills_of(text: str, of: Bench, sheets: list[Sheet]) -> tuple[Tool, ...]:
         collet = of.machine.collet
         if collet is not None and shank > collet:
             raise DesignError(
-                f"--mills: {size:g} has a shank of {shank:g} mm, and the collet of {of.machine.name} holds {collet:g} at "
-                "most; take a thinner mill, or give a larger collet in the machine's table"
+                f"--mills: {size:g} has a shank of {shank:g} mm, and the collet of {of.machine.name} holds "
+                f"{collet:g} at most; take a thinner mill, or give a larger collet in the machine's table"
             )
         whole = WHOLE.get(shank)
         long = float(match["l"]) if match["l"] else float(round(FLUTES * size))
@@ -177,16 +180,17 @@ def mills_of(text: str, of: Bench, sheets: list[Sheet]) -> tuple[Tool, ...]:
     return tuple(found.values())
 
 
+ZERO = {"switches": "homes by switches", "marks": "is homed by hand at marks", "none": "has no switches"}
+"""How a machine finds its zero, in words."""
+
+
 def remarks(of: Bench, tools: tuple[Tool, ...]) -> list[str]:
     """What to measure, and what is not known."""
-    said = [
-        f"class {rigidity_of(of.machine)}, {of.control}, "
-        f"{ {'switches': 'homes by switches', 'marks': 'is homed by hand at marks', 'none': 'has no switches'}[of.machine.homing] }"
-    ]
+    said = [f"class {rigidity_of(of.machine)}, {of.control}, {ZERO[of.machine.homing]}"]
     if of.machine.nose_to_table is None:
         said.append(
-            "measure with Z fully up from the table to the nose of the spindle, and give it as nose_to_table: "
-            "without it nobody can say whether the tools reach"
+            "measure with Z fully up from the table to the nose of the spindle, and give it as "
+            "nose_to_table: without it nobody can say whether the tools reach"
         )
     names = {"spindle": "speeds and power of the spindle", "homing": "whether it has switches"}
     unknown_ = [

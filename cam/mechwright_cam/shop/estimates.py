@@ -1,13 +1,13 @@
 """Cutting data of mills and drills for which nobody has given any: from material, machine and diameter.
 
-Chip loads of small machines are a fifth to a third of those that industry takes; they are read from settings
-that makers of such machines publish, and interpolated. The depth of a slot follows from the force F of a tooth
-that the machine bears: a chip h mm thick takes k_c1.1 h^(1-m) N per mm of depth (Kienzle), so
+Chip loads of small machines are a fifth to a third of those that industry takes; they are read from
+settings that makers of such machines publish, and interpolated. The depth of a slot follows from the force F
+of a tooth that the machine bears: a chip h mm thick takes k_c1.1 h^(1-m) N per mm of depth (Kienzle), so
 
     a_p = F / (k_c1.1 f_z^(1-m)),
 
-at most a share of the diameter by class, and less below 3 mm, where the cutter breaks before the machine gives
-way. All of it is an estimate: the first cut is watched, and what works goes into the tool's table.
+at most a share of the diameter by class, and less below 3 mm, where the cutter breaks before the machine
+gives way. All of it is an estimate: the first cut is watched, and what works goes into the tool's table.
 """
 
 import math
@@ -65,7 +65,7 @@ STRONG: tuple[tuple[float, Rigidity], ...] = ((0.3, "A"), (1.0, "B"), (3.0, "C")
 """Power in kW below which a machine whose class is not known is taken for one of a class; D from there on."""
 
 DRILL_SPEED, DRILL_CHIP = 0.4, 0.008
-"""Speed of a drill of high-speed steel in the least usual one of carbide; its feed per lip in its diameter."""
+"""Speed of a drill of high-speed steel in the least usual one of carbide; feed per lip in its diameter."""
 
 
 def rigidity_of(machine: Machine) -> Rigidity:
@@ -134,8 +134,8 @@ def slot_depth(stuff: Material, diameter: float, chip: float, kind: Rigidity, fo
 def completed(tools: Sequence[Tool], names: Sequence[str], machine: Machine) -> tuple[Tool, ...]:
     """The tools with estimates where data are lacking.
 
-    A tool without any data gets an estimate for each material; one with data does where no mill among them has
-    any for the material.
+    A tool without any data gets an estimate for each material; one with data does where no mill among them
+    has any for the material.
     """
     lacking = [
         name for name in names if not any(tool.kind in MILLS and name in tool.cutting for tool in tools)

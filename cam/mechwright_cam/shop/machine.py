@@ -34,7 +34,7 @@ Rigidity = Literal["A", "B", "C", "D"]
 """A: printed or thin, B: extrusions with a router, C: rails and ball screws or a small iron mill, D: iron."""
 
 SIDE_FORCE: dict[Rigidity, float] = {"A": 8.0, "B": 25.0, "C": 60.0, "D": 200.0}
-"""Greatest force on a tooth that machines of each class bear, N: estimates from settings that makers publish."""
+"""Greatest force on a tooth that machines of each class bear, N: estimates from published settings."""
 
 _CHOSEN = ("model", "name", "retract_z", "change_x", "change_y", "home_x", "home_y")
 """Keys that one chooses for a job; the others are figures of the mill that stands in the shop."""
@@ -79,13 +79,13 @@ class Machine(Parameters):
     )
     homing: Literal["switches", "marks", "none"] = Field(
         "switches",
-        description="How it finds machine zero: by switches, by hand at marks, or not at all; then programs go "
-        "by the work offset alone.",
+        description="How it finds machine zero: by switches, by hand at marks, or not at all; then programs "
+        "go by the work offset alone.",
     )
     rigidity: Rigidity | None = Field(
         None,
-        description="A: printed or thin extrusions; B: extrusions with a router; C: rails and ball screws, or "
-        "a small iron mill; D: an iron mill. Cutting data are estimated by it.",
+        description="A: printed or thin extrusions; B: extrusions with a router; C: rails and ball screws, "
+        "or a small iron mill; D: an iron mill. Cutting data are estimated by it.",
     )
     side_force: Newtons | None = Field(
         None, gt=0, le=10000, description="Greatest force of a tooth; by default that of its rigidity."
@@ -194,7 +194,7 @@ class Machine(Parameters):
     def speed(self, wanted: float) -> float:
         """The speed, rev/min, in place of a wanted one: within its limits, at a mark of the dial.
 
-        >>> Machine(spindle_min=10000, spindle_max=30000, speed_by_hand=True, dial=(10000, 17000)).speed(16000)
+        >>> Machine(spindle_min=1e4, spindle_max=3e4, speed_by_hand=True, dial=(1e4, 1.7e4)).speed(16000)
         10000.0
         """
         if self.dial:

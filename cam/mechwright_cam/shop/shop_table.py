@@ -4,12 +4,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from mechwright.contracts.in_hand import InHand
 from mechwright.contracts.table import Table
 from mechwright.designs.design import Design
 from mechwright.designs.files import beside
 from mechwright.designs.text import toml
 from mechwright.errors import DesignError
+from mechwright_cam.shop.tool import MILLS
 from mechwright_cam.shop.workshop_file import VARIABLE, Shop, named_by, read_shop, schema
+
+EDGE = 3.0
+"""Stock that stays beside the channel around a part, mm."""
 
 
 class ShopTable(Table[Shop | None]):
@@ -38,6 +43,18 @@ class ShopTable(Table[Shop | None]):
     def lends(self, value: Shop | None) -> Mapping[str, Mapping[str, Any]]:
         """Control, mill, units, and what the shop prefers."""
         return {} if value is None else value.lends
+
+    def in_hand(self, value: Shop | None) -> InHand | None:
+        """The sheet of a shop that has one; its mills keep their channel around each part."""
+        if value is None:
+            return None
+        rows = value.workshop.stock
+        if len(rows) != 1 or len(rows[0].thickness) != 1:
+            return InHand()
+        row = rows[0]
+        blank = None if row.length is None or row.width is None else (row.length, row.width)
+        mill = max((tool.diameter for tool in value.library if tool.kind in MILLS), default=6.0)
+        return InHand(row.material, row.thickness[0], blank, mill + EDGE, {"cam.nest.turn": True})
 
     def schema(self) -> dict[str, Any]:
         """A text."""

@@ -44,7 +44,7 @@ def bench_text(of: Bench, tools: Sequence[Tool], sheets: Sequence[Sheet]) -> str
             "",
             "[[stock]]",
             f"material = {toml(sheet.material)}",
-            f"thickness = [{sheet.thickness:g}]  # measure it: plywood is up to 0.8 thinner, acrylic a tenth off",
+            f"thickness = [{sheet.thickness:g}]  # measure it: plywood is up to 0.8 thinner",
             f"length = {sheet.length:g}",
             f"width = {sheet.width:g}",
         ]

@@ -96,15 +96,31 @@ class New(Command):
                 "reads.",
             ),
         ] = "",
+        shop: Annotated[
+            Path | None,
+            typer.Option(
+                metavar="FILE",
+                help="A shop file beside it: the design is made of the sheet in hand.",
+                show_default=False,
+            ),
+        ] = None,
+        fit: Annotated[
+            str,
+            typer.Option(metavar="SIZE", help="Largest size of each plate in mm, such as 120x80."),
+        ] = "",
         everything: Annotated[
             bool, typer.Option("--all", help="Every key, not only those that one sets first.")
         ] = False,
         force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
     ) -> None:
-        """Write a commented design file that builds as it is."""
+        """Write a commented design file that builds as it is.
+
+        With --shop or --fit the design is as large as the sheet or the size allows, and what does not go
+        with the shop is changed and told.
+        """
         from mechwright.cli import listing
 
-        listing.new(family, requirement, source, output, force, everything)
+        listing.new(family, requirement, source, output, shop, fit, force=force, whole=everything)
 
 
 class Schema(Command):

@@ -7,6 +7,7 @@ from typing import Any
 import typer
 
 from mechwright.cli.hosting import open_host
+from mechwright.cli.progress import fraction
 from mechwright.cli.telling import echo
 from mechwright.contracts.family import Family
 from mechwright.contracts.model_schema import model_schema
@@ -15,10 +16,10 @@ from mechwright.designs.files import read_text
 from mechwright.designs.requirement import require_synthesis
 from mechwright.designs.schema import as_file, file_schema, schema_name
 from mechwright.designs.tables import unknown
-from mechwright.designs.text import requirement_template, template
+from mechwright.designs.text import requirement_template, template, toml
 from mechwright.errors import DesignError
 from mechwright.output.folder import write_new
-from mechwright.plugins.host import Registered
+from mechwright.plugins.host import Host, Registered
 from mechwright.shell import file_word
 
 
@@ -62,9 +63,21 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
     }
 
 
-def new(name: str, kind: str, source: str, output: Path | None, force: bool, whole: bool) -> None:
+def new(
+    name: str,
+    kind: str,
+    source: str,
+    output: Path | None,
+    shop: Path | None = None,
+    fit: str = "",
+    *,
+    force: bool,
+    whole: bool,
+) -> None:
     """Write or print a design file, or a requirement file of a kind; all keys if ``whole``."""
-    found = open_host()
+    found, told = open_host(), list[str]()
+    if kind and (shop is not None or fit):
+        raise DesignError("--requirement: is met by whatever fits it; leave --shop and --fit out")
     family = found.family(name)
     if kind and source:
         raise DesignError("--from: a requirement file begins with its defaults; leave --from out")
@@ -77,10 +90,13 @@ def new(name: str, kind: str, source: str, output: Path | None, force: bool, who
     else:
         draft = family.draft(source, _text(source))
         text, command = template(family, name, found.all(Table), short=not whole, draft=draft), BUILD
+        if shop is not None or fit:
+            text, told = _of_shop(text, family, output or Path(f"{name}.toml"), shop, fit, found, whole=whole)
     if output is None:
         typer.echo(text, nl=False)
     else:
         write_new(output, text, replace=force)
+        echo(*told)
         echo(f"{output}: written; go on with: {command} {file_word(output)} -o out")
         option = " --requirement" if kind else ""
         file = output.with_name(schema_name(name, requirement=bool(kind)))
@@ -89,6 +105,39 @@ def new(name: str, kind: str, source: str, output: Path | None, force: bool, who
                 f"for an editor that completes and checks it: mechwright schema {name}{option} "
                 f"-o {file_word(file)}"
             )
+
+
+def _of_shop(
+    text: str, family: Family[Any], path: Path, shop: Path | None, fit: str, found: Host, *, whole: bool
+) -> tuple[str, list[str]]:
+    """The text of a new design that is made of what a shop has, and the lines that tell what was changed."""
+    from mechwright.contracts.finding import Stage
+    from mechwright.designs.bounded_toml import toml_of
+    from mechwright.designs.change import changed, rewritten
+    from mechwright.designs.design import design_of
+    from mechwright.remedies import repaired
+    from mechwright.remedies.starting import fit_of, started
+
+    size = fit_of(fit) if fit else None
+    head: dict[str, Any] = {}
+    if shop is not None:
+        if shop.resolve().parent != path.resolve().parent:
+            raise DesignError(f"--shop: {shop} should lie beside {path}; copy it there")
+        head = {"shop": shop.name, "cam": None}  # the shop has a control and a machine of its own
+    content = changed(toml_of(text, path), head)
+    change = started(content, path, found, size)
+    with fraction() as progress:
+        design = design_of(changed(content, change), path, "", found)
+        repair = repaired(design, found, Stage.MACHINING, progress)
+    change |= repair.change or {}
+    content = changed(content, change)
+    params = family.Params.model_validate(content.get("parameters", {}))
+    rest = {key: value for key, value in change.items() if not key.startswith("parameters.")}
+    text = template(family, family.name, found.all(Table), short=not whole, draft=params)
+    lines = [f"set {key} = {toml(value)}" for key, value in change.items()]
+    if not repair.builds:
+        lines += [f"not solved yet: {finding}" for finding in repair.left]
+    return rewritten(text, {**head, **rest}), lines
 
 
 BUILD = "mechwright build"

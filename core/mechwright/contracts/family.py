@@ -59,6 +59,8 @@ class Family(Plugin, Generic[P]):
     """The table ``[parameters]``."""
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {}
     """What ``synthesise`` can be asked for: kind to the table ``[requirement]``; its defaults can be met."""
+    size_keys: ClassVar[Mapping[str, float]] = {}
+    """Lengths that make a design larger as a whole, with what ``new --fit`` begins from, mm."""
     moves: ClassVar[bool] = True
     """Whether there is a motion; families of what stands still derive from ``Standing``."""
     batch: ClassVar[int] = 256

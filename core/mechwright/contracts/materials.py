@@ -11,7 +11,7 @@ those of carbide. The specific cutting force is Kienzle's, k_c = k_c1.1 h^-m wit
 * steel: S235JR in the same book (C45 takes 2220, with 0.14);
 * acetal: no source agrees with another; 100 to 200 are named, so this is an upper bound;
 * polycarbonate: cut as acetal, with a sharp edge and air;
-* acrylic, polyethylene, plywood, fibreboard: estimates from the settings that makers of small routers publish.
+* acrylic, polyethylene, plywood, fibreboard: estimates from settings that makers of routers publish.
 
 What a cutter's maker says of it counts more than any of this.
 
@@ -153,7 +153,7 @@ _Figures = tuple[float, float, float, float, tuple[float, float], tuple[float, f
 def _group(
     name: str, kind: Kind, figures: _Figures, *, long_chips: bool, melts: bool = False, advice: str = ""
 ) -> Material:
-    """A group by density, modulus, Poisson's ratio, strength, speeds, chip loads, force, exponent, expansion."""
+    """A group by density, modulus, Poisson's ratio, strength, speeds, chips, force, exponent, expansion."""
     return Material(
         name,
         name,

@@ -11,6 +11,7 @@ from mechwright.contracts.plugin import Plugin
 if TYPE_CHECKING:
     from mechwright.contracts.answers import Around, Parts
     from mechwright.contracts.family import Family
+    from mechwright.contracts.in_hand import InHand
     from mechwright.contracts.part import Part
     from mechwright.contracts.schema_check import Lines, Schema
 
@@ -59,6 +60,10 @@ class Table(Plugin, Generic[V]):
     def lends(self, value: V) -> Mapping[str, Mapping[str, Any]]:  # noqa: ARG002 - for lenders
         """Name of another table to keys that it has where the file does not say them; none by default."""
         return {}
+
+    def in_hand(self, value: V) -> "InHand | None":  # noqa: ARG002 - for lenders
+        """What ``new --shop`` makes a design of; None, the default, where the table knows of no plates."""
+        return None
 
     def laid_over(self, own: object, lent: Mapping[str, Any]) -> object:
         """What the file says of this table, laid over what another one lends it; key by key by default."""

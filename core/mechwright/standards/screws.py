@@ -29,7 +29,7 @@ ENGAGEMENT = {
     "steel": 1.0, "brass": 1.3, "aluminium": 1.5, "5754": 2.0, "5083": 2.0, "pom": 2.5, "polycarbonate": 2.5,
     "acrylic": 2.5, "hdpe": 3.0, "plywood": 4.0, "mdf": 5.0,
 }  # fmt: skip
-"""Least length of thread in a material, in diameters; handbook, unchecked. In POM and wood an insert is better."""
+"""Least length of thread in a material, in diameters; handbook, unchecked. Soft ones want an insert."""
 
 
 def least_engaged(name: str) -> float:

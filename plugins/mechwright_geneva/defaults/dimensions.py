@@ -6,6 +6,7 @@ In this order, each from those before it (docs/geneva.md, "Defaults"):
     l                   as the centre distance wants it, or 100 mm, more where the driver's shaft needs it
     pin                 the largest standard one up to 1.2 r
     crank plate         8 mm, of pins below 2 mm three and a half of them
+    locking disc        the thinnest plate that is sold and as thick as wheel and gap
     dowels              0.06 l, 2 to 4 mm; down to half of it where the driver has less room, or none
     bores               the largest standard shaft up to 0.12 l that leaves the walls
     load                0.01 kg m², of a wheel below 100 mm as that of a disc, with the fourth power of l
@@ -28,6 +29,7 @@ from mechwright_geneva.defaults.proportions import (
     crank_of,
     dowel_of,
     load_of,
+    sold_disc,
     wall_of,
 )
 from mechwright_geneva.defaults.slot_defaults import DECIDES, slot_of, wheels
@@ -80,6 +82,7 @@ def completed(given: GenevaParams, size: int | None = None) -> Sizes:
     leave("load_inertia", load_of(wheel))
     leave("pin_diameter", _largest_pin(PIN * np.asarray(values["roller_radius"])))
     leave("crank_thickness", crank_of(np.asarray(values["pin_diameter"]), values["material"]))
+    leave("disc_thickness", sold_disc(values["thickness"], values["axial_gap"], values["material"]))
     frame = frame_of(Sizes.model_construct(**values))
     leave("centre_distance", frame.axes)
     for name, value in (_driver(values, frame) | _wheel(values, frame)).items():

@@ -116,3 +116,19 @@ def least_room(entry_radius: float, shaft: float = LEAST_SHAFT) -> float:
     """Radius about the driver's axis that a shaft of this share of l and a wall take."""
     room: float = shaft * entry_radius / 2 + wall_of(entry_radius)
     return room
+
+
+def sold_disc(thickness: Any, axial_gap: Any, material: str) -> Any:
+    """Thickness of the locking disc, mm, under the crank plate.
+
+    It locks the wheel along its whole thickness, and ends at the crank plate, the gap above the wheel. The
+    disc is of the thinnest plate that is sold and does so; what this is thicker stands below the wheel. Above
+    the thickest plate the disc is as thick as it has to be.
+
+    >>> sold_disc(10.0, 1.5, "aluminium"), sold_disc(13.5, 0.5, "aluminium")
+    (12.0, 15.0)
+    """
+    sizes = np.array(plate_stock(material).thicknesses, dtype=float)
+    room = np.asarray(thickness, dtype=float) + axial_gap
+    at = np.searchsorted(sizes, room - AS_THICK)
+    return number(np.where(at < sizes.size, sizes[np.minimum(at, sizes.size - 1)], room))

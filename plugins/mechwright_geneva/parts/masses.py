@@ -20,7 +20,6 @@ from mechwright.mechanics.linkage.areas import circle_area, hull_area
 from mechwright_geneva.kinematics.geometry import LEFT, RIGHT, Points
 from mechwright_geneva.kinematics.mechanism import BLOCK, Mechanism
 from mechwright_geneva.parts.crank_outline import boss_radius, hub_radius, pin_bore, pins, stud_diameter
-from mechwright_geneva.parts.disc_plate import disc_thickness
 from mechwright_geneva.parts.locking_disc import Half
 from mechwright_geneva.parts.openings import opening_area
 from mechwright_geneva.parts.slot_outline import Slot
@@ -85,7 +84,7 @@ class Weights:
         """The locking disc."""
         area = self.m.each(_locking_disc, BLOCK) - self._driver_holes
         params = self.params
-        return self.density * area * disc_thickness(params.thickness, params.axial_gap, params.material)
+        return self.density * area * params.disc_thickness
 
     def crank(self) -> Any:
         """With a boss about each roller's pin."""

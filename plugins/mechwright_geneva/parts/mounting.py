@@ -9,7 +9,6 @@ from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.kinematics.motion import DRIVER, WHEEL, motion_of
 from mechwright_geneva.parameters import GenevaParams
-from mechwright_geneva.parts.disc_plate import disc_thickness
 from mechwright_geneva.parts.parts import driver_keyway_angle, keyway_angle
 
 SAMPLES = 721
@@ -27,7 +26,7 @@ def mounting_of(params: GenevaParams) -> Mounting:
                 ({f"parameters.{key}": 10.0},),
             )
     force, wheel_torque = shares(m)
-    disc = disc_thickness(sizes.thickness, sizes.axial_gap, sizes.material)
+    disc = sizes.disc_thickness
     foot = sizes.thickness + sizes.axial_gap
     driver = Hub(
         foot - disc,

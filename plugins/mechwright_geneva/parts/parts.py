@@ -40,7 +40,6 @@ from mechwright_geneva.kinematics.motion import DRIVER, WHEEL, island_body, roll
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.parts.counterbore import counterbore
 from mechwright_geneva.parts.crank_outline import crank_loop, pin_bore, pin_fit, pins, stud_diameter
-from mechwright_geneva.parts.disc_plate import disc_thickness
 from mechwright_geneva.parts.dowels import driver_dowels, hub_dowels, island_places, web_place
 from mechwright_geneva.parts.locking_disc import lock_loop
 from mechwright_geneva.parts.openings import driver_opening, wheel_opening
@@ -216,7 +215,7 @@ def _driver(m: Mechanism) -> list[Part]:
     top = params.thickness + params.axial_gap
     # A relief leaves the disc's radius so gently that its ends still lock: tabs stand where it is deep.
     deep = m.lock - _RELIEVED * (m.lock - m.driver_radius)
-    thick = disc_thickness(params.thickness, params.axial_gap, params.material)
+    thick = params.disc_thickness
     disc = _plate(
         m, "locking-disc", loop, deviation, opening, dowels, thick, DRIVER, top - thick, STEEL, within=deep
     )

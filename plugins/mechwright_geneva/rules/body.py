@@ -227,6 +227,17 @@ PIN = Rule(
     remedy=lambda f: f"make pin_diameter at most {rounded_down(f.limit)}",
     must_be="at most",
 )
+DISC = Rule(
+    "geneva.disc",
+    "disc_thickness",
+    lambda f: (
+        f"a locking disc of {f.value:g} mm locks less than half of a wheel of {f.m.params.thickness:g} mm"
+    ),
+    value=lambda m: m.params.disc_thickness,
+    limit=lambda m: m.params.axial_gap + np.asarray(m.params.thickness) / 2,
+    unit="mm",
+    remedy=lambda f: f"make disc_thickness at least {math.ceil(10 * f.limit - 1e-6) / 10:g}, or leave it out",
+)
 
 
 def _has_dowels(m: Mechanism) -> Any:
@@ -252,6 +263,7 @@ BODY = in_turn(
             when=lambda m: m.given.slots_made == "backed",
         ),
         PIN,
+        DISC,
         Procedure[Mechanism](
             ("geneva.counterbore",),
             counterbore_findings,

@@ -30,7 +30,6 @@ from mechwright_geneva.kinematics.figures import peaks_of, straight_peaks
 from mechwright_geneva.kinematics.mechanism import Mechanism
 from mechwright_geneva.kinematics.wall_change import switches
 from mechwright_geneva.parameters import GenevaParams, Sizes
-from mechwright_geneva.parts.disc_plate import disc_thickness
 from mechwright_geneva.rules.slot_search import is_valid_at
 from mechwright_geneva.rules.slots import speed_ratio
 
@@ -241,7 +240,7 @@ def stud_slopes(m: Mechanism) -> list[Stress]:
 def key_stresses(m: Mechanism) -> list[Stress]:
     """Pressure on the hub and shear of the keys of wheel and driver, whose torque changes its sign."""
     params, found = m.params, []
-    driver = params.crank_thickness + disc_thickness(params.thickness, params.axial_gap, params.material)
+    driver = params.crank_thickness + params.disc_thickness
     for name, bore, width, torque, length in (
         ("wheel", params.bore, params.keyway_width, loads(m).wheel_torque, params.thickness),
         ("driver", params.driver_bore, params.driver_keyway_width, loads(m).crank_torque, driver),

@@ -50,7 +50,8 @@ def by_hand_lines(job: Job, room: Room | None, speeds: Mapping[int, float], to: 
             f"The moves need room around the zero: X {to.fixed(max(-x0, 0.0), 1)} to the left and "
             f"{to.fixed(max(x1, 0.0), 1)} to the right, Y {to.fixed(max(-y0, 0.0), 1)} to the front and "
             f"{to.fixed(max(y1, 0.0), 1)} to the rear, Z {to.fixed(max(z1, 0.0), 1)} up and "
-            f"{to.fixed(max(-z0, 0.0), 1)} {to.unit} down. Jog there before the start: nothing else stops an axis."
+            f"{to.fixed(max(-z0, 0.0), 1)} {to.unit} down. Jog there before the start: nothing else stops "
+            "an axis."
         )
         yield (
             f"Before each start the tool stands above the stock and its clamps: the first move goes to "
@@ -58,8 +59,8 @@ def by_hand_lines(job: Job, room: Room | None, speeds: Mapping[int, float], to: 
         )
     if machine.nose_to_table is None and machine.rigidity in {"A", "B"}:
         yield (
-            "Whether the tools reach is not known, as nose_to_table of the machine is not given: raise Z fully, "
-            "and measure from the table to the nose of the spindle."
+            "Whether the tools reach is not known, as nose_to_table of the machine is not given: raise Z "
+            "fully, and measure from the table to the nose of the spindle."
         )
     if machine.speed_by_hand:
         for number, speed in speeds.items():

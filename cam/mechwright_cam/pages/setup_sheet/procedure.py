@@ -209,12 +209,10 @@ def _touch_off(job: Job, control: Control, tools: Sequence[int], *, by_file: boo
             "Where the stock's top is gone by then, touch off beside it and add the difference of height.",
         ]
         if not job.settings.machine.homed:
+            set_z = control.setting_words(job.settings.work_offset).replace("G10 L2 ", "G10 L20 ")
             lines.append(
-                "Without a setter, lower the tool by 0.1 mm at a time until a sheet of paper below it just drags, "
-                f"and set Z to the thickness of the paper: {control.height_words(job.settings.work_offset, '0.1')}".replace(
-                    "G10 L2 ", "G10 L20 "
-                )
-                + "."
+                "Without a setter, lower the tool by 0.1 mm at a time until a sheet of paper below it just "
+                f"drags, and type {set_z} Z0.1, the thickness of the paper."
             )
         if not by_file:
             lines.append(

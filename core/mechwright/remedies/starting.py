@@ -1,0 +1,168 @@
+"""A new design that is made of what a shop has in hand, as large as a sheet allows."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mechwright.contracts.in_hand import InHand
+from mechwright.contracts.part import Part
+from mechwright.designs.change import changed, found_at
+from mechwright.designs.design import Design, design_of
+from mechwright.errors import DesignError, MechwrightError
+from mechwright.plugins.host import Host
+from mechwright.remedies.keys import Key, keys_of
+
+STEPS = 24
+"""Sizes that are tried between the least and the greatest factor."""
+LEAST, MOST = 0.05, 20.0
+"""Factors between which the size of a design is sought."""
+NICE = 0.5
+"""Lengths are multiples of this, mm; a module of a fifth of it."""
+
+
+def fit_of(text: str) -> tuple[float, float]:
+    """Length and width, mm, from a text such as ``120x80``; raises DesignError.
+
+    >>> fit_of("120x80")
+    (120.0, 80.0)
+    """
+    words = text.lower().split("x")
+    try:
+        x, y = (float(word) for word in words)
+    except ValueError:
+        raise DesignError(f"--fit: {text!r} should be length x width in mm, such as 120x80") from None
+    if not (0 < x < math.inf and 0 < y < math.inf):
+        raise DesignError(f"--fit: {text!r}: both should be above 0")
+    return x, y
+
+
+def started(
+    content: dict[str, Any], path: Path, host: Host, fit: tuple[float, float] | None
+) -> dict[str, Any]:
+    """The keys that make a new design of the sheet in hand, and as large as it may be."""
+    change: dict[str, Any] = {}
+
+    def design() -> Design:
+        return design_of(changed(content, change), path, "", host)
+
+    first = design()
+    hand = (
+        next((one.in_hand(first.tables[one.name]) for one in first.readers if one.lender), None) or InHand()
+    )
+    if hand.material and "parameters.material" in keys_of(first):
+        change["parameters.material"] = hand.material
+    if hand.thickness is not None:
+        change |= _thicknesses(design(), hand.thickness, host)
+    sheet = fit or hand.sheet
+    if sheet is not None:
+        change |= _size(design(), sheet, hand.gap, host, together=fit is None)
+    if fit is None and hand.sheet is not None:
+        change |= hand.change
+    return change
+
+
+def _plates(design: Design) -> list[Part]:
+    """The plates of a design; none where it has an error."""
+    try:
+        parts = design.family.parts(design.params)
+    except MechwrightError:
+        return []
+    return [part for part in parts if part.outline is not None and part.bought is None]
+
+
+def _thicknesses(design: Design, thickness: float, host: Host) -> dict[str, Any]:
+    """The keys after which plates are as thick as asked, each tried by itself."""
+    found: dict[str, Any] = {}
+    alike = _alike(design, thickness)
+    for key in _numbers(design):
+        if "thickness" not in key.name or not key.low <= thickness <= key.high:
+            continue
+        trial = _tried(design, {**found, key.path: thickness}, host)
+        if trial is not None and (count := _alike(trial, thickness)) > alike:
+            found[key.path], alike = thickness, count
+    return found
+
+
+def _alike(design: Design, thickness: float) -> int:
+    return sum(abs(part.thickness - thickness) < 1e-6 for part in _plates(design))
+
+
+def _numbers(design: Design) -> Iterator[Key]:
+    return (key for key in keys_of(design).values() if key.numeric and key.path.startswith("parameters."))
+
+
+def _tried(design: Design, change: Mapping[str, Any], host: Host) -> Design | None:
+    try:
+        return design_of(changed(design.content, change), design.path, "", host)
+    except MechwrightError:
+        return None
+
+
+def _size(
+    design: Design, sheet: tuple[float, float], gap: float, host: Host, *, together: bool
+) -> dict[str, Any]:
+    """The lengths that make a design as large as its plates fit on a sheet, each or all ``together``."""
+    sizes = design.family.size_keys
+    if not sizes:
+        return {}
+    now = {}
+    for name, usual in sizes.items():
+        stands, value = found_at(design.content, f"parameters.{name}")
+        now[f"parameters.{name}"] = float(value) if stands and isinstance(value, int | float) else usual
+    low, high, best = math.log(LEAST), math.log(MOST), None
+    for _ in range(STEPS):
+        middle = (low + high) / 2
+        change = {path: _nice(path, value * math.exp(middle)) for path, value in now.items()}
+        trial = _tried(design, change, host)
+        plates = [] if trial is None else _plates(trial)
+        if plates and not _fits(plates, sheet, gap, together=together):
+            high = middle
+        elif plates:
+            low, best = middle, change
+        elif best is None:  # too small for its own walls, or beyond a bound
+            low = middle
+        else:
+            high = middle
+    if best is None:
+        raise DesignError(
+            f"--fit: no design of {design.family.name} fits on {sheet[0]:g} x {sheet[1]:g} mm; give a larger "
+            "size"
+        )
+    return best
+
+
+def _nice(path: str, value: float) -> float:
+    step = NICE / 5 if path.endswith("module") else NICE
+    return round(max(math.floor(value / step + 1e-9), 1) * step, 6)
+
+
+def _fits(plates: Sequence[Part], sheet: tuple[float, float], gap: float, *, together: bool) -> bool:
+    """Whether each plate fits on a sheet, or all of them do in rows, with a gap around each."""
+    boxes = []
+    for part in plates:
+        x0, y0, x1, y1 = part.outline.polygon().bounds  # type: ignore[union-attr]
+        boxes += [(x1 - x0 + 2 * gap, y1 - y0 + 2 * gap)] * max(1, len(part.instances))
+    if not together:
+        return all(_one(box, sheet) for box in boxes)
+    return any(_rows(boxes, way) for way in (sheet, sheet[::-1]))
+
+
+def _one(box: tuple[float, float], sheet: tuple[float, float]) -> bool:
+    return any(x <= sheet[0] and y <= sheet[1] for x, y in (box, box[::-1]))
+
+
+def _rows(boxes: Sequence[tuple[float, float]], sheet: tuple[float, float]) -> bool:
+    """Whether boxes, each lying, fit in rows from the tallest to the flattest."""
+    length, left = sheet
+    used = tall = 0.0
+    for long, flat in sorted((tuple(sorted(box, reverse=True)) for box in boxes), key=lambda one: -one[1]):
+        if long > length:
+            return False
+        if used + long > length or not tall:
+            left -= flat
+            used, tall = 0.0, flat
+            if left < 0:
+                return False
+        used += long
+    return True
