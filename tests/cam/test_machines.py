@@ -86,12 +86,12 @@ def test_the_limits_of_the_machine_are_in_the_program() -> None:
 
 
 def test_a_tool_too_long_for_the_room_below_the_spindle_is_found() -> None:
-    low = job(plate(bore(12.0)), "drill-8", "mill-6", machine={"nose_to_table": 60})
+    low = job(plate(bore(12.0)), "drill-8", "mill-6", machine={"nose_to_table": 45})
     longest = max(low.tools, key=lambda tool: tool.flute_length)
     (found,) = check_machine(low)
     assert (found.code, found.severity) == ("cam.tool-too-long", Severity.ERROR)
     assert longest.name in found.message
-    assert found.value > found.limit == 60
+    assert found.value > found.limit == 45
     assert (
         list(
             check_machine(job(plate(bore(12.0)), "drill-8", "mill-6", machine={"nose_to_table": found.value}))

@@ -217,7 +217,7 @@ def test_work_offset_is_set_once_and_every_tool_measured(offset, number):
     made = steps(job(work_offset=offset), [4, 7, 9], file_names=["wheel.nc"], deepest=-12.4)
     titles = [step.title for step in made]
     assert titles == [
-        "Look at the control's settings",
+        "Look at the machine and its control",
         "Clamp the stock",
         f"Set {offset} X and Y",
         f"Set {offset} Z once, with the Z setter",

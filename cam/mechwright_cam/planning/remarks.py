@@ -22,6 +22,7 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import check_clamp, make_job
 from mechwright_cam.setup.limits import check_travel
 from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
@@ -156,7 +157,8 @@ def _remarks(job: Job, depths: Mapping[str, float]) -> Iterator[Finding]:
         yield from _speeds(job, tool)
         if tool.kind in MILLS:
             yield from _bending(job, tool, depths.get(tool.name, tool.nose - job.floor))
-            yield from _figures(tool, material)
+            if not tool.is_estimated(material):
+                yield from _figures(tool, material, job.settings.machine)
 
 
 def _speeds(job: Job, tool: Tool) -> Iterator[Finding]:
@@ -209,12 +211,21 @@ def _bending(job: Job, tool: Tool, deep: float) -> Iterator[Finding]:
     yield Finding.warning("cam.deflection", where, message, bent, most, "mm", remedy, proposed=proposed)
 
 
-def _figures(tool: Tool, workpiece: str) -> Iterator[Finding]:
-    """Whether an end mill's cutting data are of the usual size: a slip of the decimal point is not."""
+def _figures(tool: Tool, workpiece: str, machine: Machine) -> Iterator[Finding]:
+    """Whether an end mill's cutting data are of the usual size: a slip of the decimal point is not.
+
+    A speed below the usual ones is none where the spindle turns no faster.
+    """
     data, usual = tool.cutting[workpiece], material_of(workpiece)
     share = HSS_SPEED if tool.substrate == "hss" else 1.0
+    reached = machine.speed(math.inf) * math.pi * tool.diameter / 1000
     for what, value, (low, high), unit in (
-        ("cutting_speed", data.cutting_speed, (usual.speed[0] * share, usual.speed[1] * share), "m/min"),
+        (
+            "cutting_speed",
+            data.cutting_speed,
+            (min(usual.speed[0] * share, 0.9 * reached), usual.speed[1] * share),
+            "m/min",
+        ),
         ("chip_load", data.chip_load, tuple(tool.diameter * s for s in usual.chip_share), "mm"),
     ):
         if not low <= value <= high:

@@ -34,7 +34,7 @@ CHUCK = 30.0
 """Height of a collet chuck below the nose of a spindle, mm; a collet in the nose itself has none."""
 
 
-def held(settings: CamSettings) -> float:
+def clamp_height(settings: CamSettings) -> float:
     """How far what holds the part stands above the stock, mm."""
     if settings.hold.method == "bore":
         return settings.hold.clamp_height
@@ -50,13 +50,13 @@ def least_stick_out(tool: Tool, settings: CamSettings, thickness: float) -> floa
     """Least length of a tool out of its holder for a cut through the part, mm; its own where it is set."""
     if tool.stick_out is not None:
         return tool.stick_out
-    return min(tool.flute_length, thickness + settings.breakthrough) + held(settings) + HOLDER_GAP
+    return min(tool.flute_length, thickness + settings.breakthrough) + clamp_height(settings) + HOLDER_GAP
 
 
 def height_of(tool: Tool, settings: CamSettings, thickness: float) -> float:
     """From the table to the nose of a spindle whose tool is as high over a part as rapids run, mm."""
     below = max(settings.machine.spoil_board, settings.breakthrough)
-    over = below + thickness + held(settings) + settings.clearance
+    over = below + thickness + clamp_height(settings) + settings.clearance
     return least_stick_out(tool, settings, thickness) + chuck(settings) + over
 
 
@@ -97,11 +97,11 @@ def check_machine(job: Job) -> Iterator[Finding]:
 def _span(job: Job) -> Iterator[Finding]:
     """From the deepest cut to the height of rapids: what Z has to travel in any case."""
     settings, machine = job.settings, job.settings.machine
-    wanted = job.thickness + settings.breakthrough + held(settings) + settings.clearance
+    wanted = job.thickness + settings.breakthrough + clamp_height(settings) + settings.clearance
     if wanted > machine.travel_z:
         message = (
             f"part {job.part.name} asks for {wanted:.1f} mm of travel in Z: {job.thickness:g} of stock, "
-            f"{settings.breakthrough:g} below it, {held(settings):g} of clamps and {settings.clearance:g} of "
+            f"{settings.breakthrough:g} below it, {clamp_height(settings):g} of clamps and {settings.clearance:g} of "
             f"clearance; the machine has {machine.travel_z:g}"
         )
         remedy = "take thinner stock, or hold it by tabs or from below"

@@ -224,9 +224,9 @@ class Preset(Parameters):
     """What a shop file takes over with a known machine: the table ``[NAME.shop]``."""
 
     control: str = Field("", description="Control that comes with it; empty where none here writes for it.")
-    reads: str = Field("", description="What it comes with, in its maker's words.")
+    reads: str = Field("", description="The language of that control, in the maker's words.")
     coolant: Literal["flood", "mist", "off"] = Field("flood", description="Coolant that it has.")
-    unknown: tuple[str, ...] = Field((), description="Figures that nobody publishes: estimates stand there.")
+    unknown: tuple[str, ...] = Field((), description="Unpublished figures: estimates stand there.")
     doubtful: tuple[str, ...] = Field((), description="Figures of one owner, or from memory.")
 
 

@@ -60,7 +60,7 @@ class Family(Plugin, Generic[P]):
     requirements: ClassVar[Mapping[str, type[Parameters]]] = {}
     """What ``synthesise`` can be asked for: kind to the table ``[requirement]``; its defaults can be met."""
     size_keys: ClassVar[Mapping[str, float]] = {}
-    """Lengths that make a design larger as a whole, with what ``new --fit`` begins from, mm."""
+    """Keys of lengths by which ``new --fit`` scales a design, each with the value that it starts from, mm."""
     moves: ClassVar[bool] = True
     """Whether there is a motion; families of what stands still derive from ``Standing``."""
     batch: ClassVar[int] = 256
@@ -188,7 +188,7 @@ class Family(Plugin, Generic[P]):
         return None
 
     def draft(self, source: str, text: str) -> P:  # noqa: ARG002 - used by families that have some
-        """The design that ``new`` writes.
+        """The design that ``new`` writes: what it sets, with the keys that one sets first. The default sets none.
 
         Parameters
         ----------
@@ -196,11 +196,6 @@ class Family(Plugin, Generic[P]):
             What ``new --from`` names: something that the family knows, or a file; empty without it.
         text
             What that file says; empty where no file is named.
-
-        Returns
-        -------
-        params
-            What it sets is written, with the keys that one sets first. The default sets nothing.
 
         Raises
         ------

@@ -152,7 +152,7 @@ def reach(traced: Sequence[Traced]) -> tuple[float, float, float, float] | None:
         for stroke in item.strokes:
             if stroke.feed <= 0:
                 continue
-            points = [stroke.start[:2], stroke.end[:2], *turning_points(stroke)]
+            points = [stroke.start[:2], stroke.end[:2], *extreme_points(stroke)]
             xs, ys = zip(*points, strict=True)
             boxes.append((min(xs) - radius, min(ys) - radius, max(xs) + radius, max(ys) + radius))
     if not boxes:
@@ -161,7 +161,7 @@ def reach(traced: Sequence[Traced]) -> tuple[float, float, float, float] | None:
     return min(x0), min(y0), max(x1), max(y1)
 
 
-def turning_points(stroke: Stroke) -> list[Point]:
+def extreme_points(stroke: Stroke) -> list[Point]:
     """Where an arc passes the directions of the axes: there it reaches out furthest."""
     if stroke.centre is None:
         return []

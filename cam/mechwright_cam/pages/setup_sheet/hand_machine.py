@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from mechwright.contracts.materials import material
-from mechwright_cam.pages.setup_sheet.facts import turning_points
+from mechwright_cam.pages.setup_sheet.facts import extreme_points
 from mechwright_cam.pages.trace import Traced
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.lengths import Lengths
@@ -18,7 +18,7 @@ def room_of(traced: Sequence[Traced], clearance: float) -> Room | None:
     if not strokes:
         return None
     places = [
-        point for stroke in strokes for point in (stroke.start[:2], stroke.end[:2], *turning_points(stroke))
+        point for stroke in strokes for point in (stroke.start[:2], stroke.end[:2], *extreme_points(stroke))
     ]
     xs, ys = zip(*places, strict=True)
     return min(xs), min(ys), min(stroke.bottom for stroke in strokes), max(xs), max(ys), clearance

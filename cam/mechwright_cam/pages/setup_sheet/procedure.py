@@ -77,7 +77,7 @@ def steps(
     measuring
         The files of those that measure tools.
     by_hand
-        Sentences about what is done at the machine before the start.
+        What is done at the machine before the start.
     """
     offset, to = control.offset_words(job.settings.work_offset), Lengths(control.units)
     over = job.side == "underside"
@@ -302,8 +302,7 @@ def _plane(job: Job, offset: str, to: Lengths) -> Step:
         lines.append(
             f"The stock's left edge is X {to.signed(x0)}, its front edge is Y {to.signed(y0)}. With an edge "
             f"finder of radius r: on the left edge set {offset} X so that X reads {to.signed(x0)} − r, on "
-            "the "
-            f"front edge Y so that Y reads {to.signed(y0)} − r."
+            f"the front edge Y so that Y reads {to.signed(y0)} − r."
         )
     return Step(f"Set {offset} X and Y", tuple(lines))
 
@@ -390,8 +389,7 @@ def _run(job: Job, control: Control, file_names: Sequence[str], to: Lengths, *, 
             sides = f", on slopes that reach {to.fixed(foot, 1)} {to.unit} along the wall at the underside,"
         lines.append(
             f"{len(job.tabs)} tabs of {to.plain(width)} × {to.with_unit(height)}{sides} hold the {what} "
-            "to the end. "
-            "Saw them through, and file them flush."
+            "to the end. Saw them through, and file them flush."
         )
     if job.clamp is not None:
         lines.append(
