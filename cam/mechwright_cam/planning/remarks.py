@@ -14,7 +14,7 @@ from mechwright_cam.operations.bending import SLENDER, deflection, most_bent, pa
 from mechwright_cam.operations.choice import MisfitError, long_enough
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.drilling import SPOT
-from mechwright_cam.operations.rates import rates, runs_too_fast
+from mechwright_cam.operations.rates import RUBS, rates, rubs, runs_too_fast
 from mechwright_cam.operations.tap import declined
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.selection import choose_tools
@@ -24,9 +24,6 @@ from mechwright_cam.setup.limits import check_travel
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
-
-RUBS = 0.5
-"""Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
 
 
 def lay_out(
@@ -171,8 +168,8 @@ def _speeds(job: Job, tool: Tool) -> Iterator[Finding]:
         slowest, wanted = machine.spindle_min, 1000 * data.cutting_speed / (math.pi * width)
         where, remedy = "cam.machine.spindle_min", "take a smaller tool"
         yield Finding.warning("cam.too-fast", where, message, slowest, wanted, "rpm", remedy)
-    least = RUBS * data.chip_load
-    if planned.chip < least:
+    if rubs(tool, material, machine):
+        least = RUBS * data.chip_load
         message = (
             f"{tool.name} gets {planned.chip:.3f} mm per tooth at {planned.spindle:.0f} rev/min, not the "
             f"{data.chip_load:g} mm of its chip load, and rubs"

@@ -55,10 +55,10 @@ class Machine(Parameters):
     spindle_min: RevPerMin = Field(100.0, ge=0, le=100000, description="Slowest spindle speed.")
     spindle_max: RevPerMin = Field(12000.0, gt=0, le=200000, description="Fastest spindle speed.")
     spindle_power: Kilowatts = Field(
-        5.5, gt=0, le=200, description="Power of the spindle motor above its base speed."
+        2.2, gt=0, le=200, description="Power of the spindle motor above its base speed."
     )
     spindle_torque: NewtonMetres = Field(
-        30.0, gt=0, le=5000, description="Torque of the spindle below its base speed."
+        10.5, gt=0, le=5000, description="Torque of the spindle below its base speed."
     )
     spindle_efficiency: Ratio = Field(
         0.8, gt=0, le=1, description="Share of power and torque that reaches the cut."
