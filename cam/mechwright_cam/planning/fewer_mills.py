@@ -86,13 +86,14 @@ def _time(every: Job, walls: Sequence[Wall], mills: Sequence[Tool]) -> float:
     """Time of all walls and bores with some mills and their changes, s; inf where one lacks a mill."""
     seconds = len(mills) * change_time(every)
     for wall in walls:
-        seconds += _wall_time(every, wall, mills)
+        seconds += wall_time(every, wall, mills)
         if math.isinf(seconds):
             return seconds
     return seconds + _bores_time(every, mills)
 
 
-def _wall_time(every: Job, wall: Wall, mills: Sequence[Tool]) -> float:
+def wall_time(every: Job, wall: Wall, mills: Sequence[Tool]) -> float:
+    """Time in which mills rough and finish a wall, s, without changes; inf where none reaches its corners."""
     known, finest = every.part.material, wall.asked[-1].diameter
     able = [mill for mill in mills if long_enough(mill, wall.deep) and known in mill.cutting]
     able = [mill for mill in able if mill.diameter <= wall.asked[0].diameter + TOLERANCES.noise]

@@ -15,6 +15,7 @@ from mechwright.shell import file_word
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.holding_force import holding_findings
 from mechwright_cam.planning.in_hand import from_hand
 from mechwright_cam.planning.nesting import NestNameError, arranged
 from mechwright_cam.planning.remarks import merged_tool_findings
@@ -139,7 +140,7 @@ class Preparation:
                 cam = cam.model_copy(update={"stock": blank})
                 laid, found = lay_out_setups(part, cam, own, self.assignments)
             found += more
-        found += [finding for job in laid for finding in check_machine(job)]
+        found += [finding for job in laid for finding in (*check_machine(job), *holding_findings(job))]
         if self.shop is not None and errors(found):
             buy = to_buy(part, cam, own, self.assignments, self.shop)
             found += [] if buy is None else [buy]

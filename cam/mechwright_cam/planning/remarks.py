@@ -17,6 +17,7 @@ from mechwright_cam.operations.drilling import SPOT
 from mechwright_cam.operations.rates import RUBS, rates, rubs, runs_too_fast
 from mechwright_cam.operations.tap import declined
 from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.better_process import better_process
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import check_clamp, make_job
@@ -61,6 +62,7 @@ def lay_out(
             found += task.operation.remarks(task, job)
         every = replace(job, tools=library.tools)
         found += declined(every, assigned.tasks, assignments.untapped(library))
+        found += better_process(job, assigned.tasks)
         idle = _idle(job, assigned.tasks)
         if settings.tools:
             found += [_idling(job, mill) for mill in idle]

@@ -87,7 +87,7 @@ def _chosen(
 ) -> tuple[Tool, ...]:
     """The choice among all cutters of a library."""
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
-    every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
+    every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, (AMPLE, AMPLE)))
     for outline in part.outlines:
         outline.polygon()  # one that cuts itself is refused before anything is grown around it
     chosen: list[Tool] = []
