@@ -13,7 +13,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import ROOMY, MisfitError, usable_mills
 from mechwright_cam.operations.contour_writer import finish_bore_compensated
 from mechwright_cam.operations.contract import Hole, Operation, Task
-from mechwright_cam.operations.drilling import ON_SIZE, is_loose, starting_drill, usable_drills
+from mechwright_cam.operations.drilling import ON_SIZE, is_clearance, starting_drill, usable_drills
 from mechwright_cam.operations.entry import enters
 from mechwright_cam.operations.finishing import (
     FINISH_STEP,
@@ -131,7 +131,7 @@ def sizing_drill(job: Job, bore: Bore) -> Tool | None:
 
     The hole is small, or one through which a screw passes.
     """
-    if bore.fit is not None or not (bore.diameter < FINE_MILL / ROOMY or is_loose(bore.diameter)):
+    if bore.fit is not None or not (bore.diameter < FINE_MILL / ROOMY or is_clearance(bore.diameter)):
         return None
     return _drill_of_size(job, bore)
 

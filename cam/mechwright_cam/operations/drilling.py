@@ -19,18 +19,18 @@ ON_SIZE = 0.005
 """A drill this near to a hole's diameter makes the hole to size, mm."""
 
 
-LOOSE = frozenset(size.clearance(series) for size in screw_sizes() for series in ("fine", "medium"))
+CLEARANCES = frozenset(size.clearance(series) for size in screw_sizes() for series in ("fine", "medium"))
 """Diameters of clearance holes, mm (ISO 273): a screw finds its place in them though a drill has wandered by
 0.1 mm. No other hole above the finest mills is left to a drill: what turns or sits in it needs its place."""
 
 
-def is_loose(diameter: float) -> bool:
+def is_clearance(diameter: float) -> bool:
     """Whether a hole is one through which a screw passes.
 
-    >>> is_loose(5.5), is_loose(6.0)
+    >>> is_clearance(5.5), is_clearance(6.0)
     (True, False)
     """
-    return any(abs(diameter - one) <= ON_SIZE for one in LOOSE)
+    return any(abs(diameter - one) <= ON_SIZE for one in CLEARANCES)
 
 
 def point_length(drill: Tool) -> float:

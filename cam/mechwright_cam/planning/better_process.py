@@ -11,7 +11,7 @@ import shapely
 
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.contracts.materials import material
-from mechwright.contracts.part import Pocket
+from mechwright.contracts.part import Profile
 from mechwright_cam.operations.bending import SLENDER
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.planning.fewer_mills import Wall, wall_time
@@ -76,10 +76,9 @@ def _wall(job: Job, task: Task) -> Wall | None:
     """The wall of a task that goes through the plate, if mills make it."""
     feature = task.feature
     mills = tuple(tool for tool in task.tools if tool.kind is ToolKind.END_MILL)
-    loop = getattr(feature, "loop", None)
-    if not mills or task.is_detail or loop is None or isinstance(feature, Pocket):
+    if not mills or not isinstance(feature, Profile):
         return None
     if not through(job, feature.top + feature.depth):
         return None
     order = tuple(sorted(mills, key=lambda mill: -mill.diameter))
-    return Wall(feature, shapely.Polygon(loop.flatten()), -job.floor, order)
+    return Wall(feature, shapely.Polygon(feature.loop.flatten()), -job.floor, order)

@@ -17,6 +17,7 @@ from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.holding_force import holding_findings
 from mechwright_cam.planning.in_hand import from_hand
+from mechwright_cam.planning.nest_note import nest_notes
 from mechwright_cam.planning.nesting import NestNameError, arranged
 from mechwright_cam.planning.remarks import merged_tool_findings
 from mechwright_cam.planning.setups import lay_out_setups
@@ -128,6 +129,7 @@ class Preparation:
             findings = merged_tool_findings(findings, _used(jobs, self.assignments))
             findings += self._as_cut(tops)
             findings += self._unused_data(jobs)
+            findings += nest_notes(self.settings, jobs)
         return findings, jobs
 
     def _of_part(self, part: Part, cam: CamSettings) -> tuple[list[Finding], list[Job]]:
