@@ -273,7 +273,7 @@ CASES: dict[str, Case] = {
     "ream-milled": Case(
         (Bore("pin", (0.0, 0.0), 6.006, 0, 4, fit=hole_fit(6, "H7")),),
         ("mill-4", "reamer-6"),
-        ("pin: bore", "pin: bore for the reamer", "pin: ream"),
+        ("pin: bore for the reamer", "pin: ream"),
         settings=FLUSH,
     ),
     "inches": Case(

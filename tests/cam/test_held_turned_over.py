@@ -174,5 +174,5 @@ def test_the_plate_begins_as_the_first_side_has_left_it() -> None:
     assert found.cut.shape == was.cut.shape
     # Turned over about X: rows run the other way. Cells at an edge differ by how it is rounded.
     over, before = found.cut[::-1] == BEFORE, was.cut < NEVER
-    assert np.count_nonzero(over != before) < 0.03 * np.count_nonzero(before)
+    assert np.count_nonzero(over != before) < 0.05 * np.count_nonzero(before)
     assert set(np.unique(found.cut)) == {BEFORE, NEVER}

@@ -4,7 +4,10 @@ import re
 import pytest
 
 from mechwright.contracts.materials import GROUPS
+from mechwright.contracts.threads import COARSE
 from mechwright.errors import DesignError, OutputError, ToolError
+from mechwright.standards.screws import screw_size
+from mechwright_cam.operations.ream import allowance
 from mechwright_cam.shop.library import built_in, load_library
 from mechwright_cam.shop.tool import ToolKind
 
@@ -29,18 +32,61 @@ def file(tmp_path, text):
 
 def test_built_in_tools_know_every_material_and_have_sensible_data():
     library = built_in()
-    assert {tool.kind for tool in library} == set(ToolKind) - {
-        ToolKind.REAMER,
-        ToolKind.TAP,
-    }  # which are made for one hole each
+    assert {tool.kind for tool in library} == set(ToolKind)
     for tool in library:
-        assert set(tool.cutting) == set(GROUPS), tool.name
+        polished = {"aluminium", "pom", "polycarbonate"}
+        some = tool.name.startswith(("alu", "single"))
+        assert set(tool.cutting) == (polished if some else set(GROUPS)), tool.name
         for data in tool.cutting.values():
-            assert 0.001 < data.chip_load / tool.diameter < 0.03, tool.name
-            assert 20 <= data.cutting_speed <= 300
+            assert 0.001 < data.chip_load / tool.diameter < 0.06, tool.name
+            assert (8 if tool.kind in {ToolKind.REAMER, ToolKind.TAP} else 20) <= data.cutting_speed <= 300
     # Harder materials are cut more slowly.
     mill = library.get("mill-6").cutting
     assert mill["steel"].cutting_speed < mill["brass"].cutting_speed < mill["aluminium"].cutting_speed
+
+
+DRILL_FEED = {3.2: (0.025, 0.075), 6.4: (0.05, 0.15), 12.7: (0.10, 0.25)}
+"""Least and most feed of drills in wrought aluminium up to a diameter, mm a turn (build-it.md, j)."""
+REAMED = {"aluminium": (20, 30, 0.1, 0.3), "steel": (8, 12, 0.07, 0.2), "brass": (15, 25, 0.1, 0.3)}
+"""Least and most speed of reamers, m/min, and feed, mm a turn."""
+
+
+def test_the_crib_has_the_drills_taps_and_reamers_of_plates():
+    """For threads M3 to M10, their clearance holes of ISO 273, and holes H7 (DIN 338, 212, 371)."""
+    by_name = {tool.name: tool for tool in built_in()}
+    cores = {3: 2.5, 4: 3.3, 5: 4.2, 6: 5, 8: 6.8, 10: 8.5}
+    for size, core in cores.items():
+        tap = by_name[f"tap-m{size}"]
+        assert (tap.diameter, tap.pitch) == (size, COARSE[size])
+        assert by_name[f"drill-{core:g}"].diameter == pytest.approx(size - tap.pitch, abs=0.06)
+        for data in tap.cutting.values():
+            assert data.chip_load * tap.flutes == pytest.approx(tap.pitch)
+    for size in (3, 4, 5, 6, 8):
+        assert f"drill-{screw_size(size).clearance():g}" in by_name
+    for size in (3, 4, 5, 6, 8, 10, 12):
+        reamer, drill = by_name[f"reamer-{size}"], by_name[f"drill-{size - 0.2:g}"]
+        least, most = allowance(size)
+        assert least - 1e-9 <= reamer.diameter - drill.diameter <= most + 1e-9
+        for material, (slow, fast, low, high) in REAMED.items():
+            data = reamer.cutting[material]
+            assert slow <= data.cutting_speed <= fast
+            assert low - 1e-3 <= data.chip_load * reamer.flutes <= high + 1e-3
+
+
+def test_drills_are_fed_as_handbooks_have_it():
+    for tool in built_in():
+        if tool.kind is not ToolKind.DRILL or tool.diameter < 1.6:
+            continue
+        low, high = next(range_ for most, range_ in DRILL_FEED.items() if tool.diameter <= most)
+        feed = 2 * tool.cutting["aluminium"].chip_load
+        assert 0.9 * low * min(1, tool.diameter / 3) <= feed <= high, tool.name
+        assert 60 <= tool.cutting["aluminium"].cutting_speed <= 90
+        assert 24 <= tool.cutting["steel"].cutting_speed <= 30
+
+
+def test_mills_for_soft_material_have_room_for_its_chips():
+    flutes = {t.name: t.flutes for t in built_in() if t.name.startswith(("alu", "single"))}
+    assert set(flutes.values()) == {1, 2, 3}
 
 
 def test_ten_millimetre_plates_can_be_cut_with_small_mills():

@@ -22,6 +22,7 @@ from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.power import WATTS, available, milling_force, slower
+from mechwright_cam.shop.tool import CuttingChange
 
 FACTS, RULES = json.loads(
     (Path(__file__).parents[1] / "data" / "cutting.json").read_text(encoding="utf-8")
@@ -162,8 +163,11 @@ def test_a_cut_beyond_the_spindle_is_refused_and_the_advice_helps(control: str) 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "grbl"])
 def test_planning_slows_what_the_spindle_has_no_power_for_and_nothing_else(control: str) -> None:
+    """The depth of passes is said: without that passes are less deep, and need no slower feed."""
     (one,) = made("profile-outside", control)
+    cutting = {"mill-8": CuttingChange(step_down=0.5)}
     of = weaker(one)
+    of = replace(of, settings=of.settings.model_copy(update={"cutting": cutting}))
     slow = machine(of, BY_NAME[control])
     assert slow.proof.ok
     assert slow.program.notes[

@@ -148,7 +148,7 @@ def chosen(control: str, part: Part, *tools: Tool, **settings: object) -> tuple[
 
 
 def test_the_crib_decides_and_it_is_said() -> None:
-    assert chosen("linuxcnc", plate()) == ({"mill-3", "thread-m6"}, [])
+    assert chosen("linuxcnc", plate()) == ({"spot-6", "drill-5", "thread-m6"}, [])
     assert chosen("linuxcnc", plate(), TAP) == (
         {"spot-6", "drill-5", "tap-m6"},
         ["m6, M6x1, is cut by the tap tap-m6"],

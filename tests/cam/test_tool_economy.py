@@ -19,13 +19,18 @@ from mechwright_cam.operations.pen import STEEP, Pen
 from mechwright_cam.operations.rates import Rates
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.program.moves import Feed, FeedArc
+from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 
 SLOT = rounded_box(40, 8.05, 4.02, clockwise=True)
 
 
-def names(of, **settings):
-    return [tool.name for tool in choose_tools(of, CamSettings.model_validate(settings), LIBRARY)]
+FEW = Library(tuple(tool for tool in LIBRARY if tool.number <= 100))
+"""A crib with drills of few sizes, and no reamers."""
+
+
+def names(of, library=FEW, **settings):
+    return [tool.name for tool in choose_tools(of, CamSettings.model_validate(settings), library)]
 
 
 def test_a_slot_is_not_cut_by_a_mill_as_wide_as_it():

@@ -1,4 +1,4 @@
-"""How far a slender cutter bends under its roughing cut, and how deep its passes are for that.
+"""How far a slender cutter bends under its roughing cut, and how deep its passes are for that and for power.
 
 It is a cantilever with a force at its tip.
 
@@ -10,7 +10,9 @@ F l³ / (3 E I) with I = π d_e⁴ / 64 of the equivalent diameter that the flut
 import math
 
 from mechwright.contracts.materials import material
+from mechwright_cam.operations.rates import rates
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.power import WATTS, available, milling_force
 from mechwright_cam.shop.tool import Tool
 
 SLENDER = 5.0
@@ -18,6 +20,9 @@ SLENDER = 5.0
 THINNEST = 0.05
 """Passes of fewer diameters than this are not planned, however far the mill bends: time goes up and its edge
 is worn in one place. No cutter that comes with the program asks for them."""
+
+SHALLOWEST = 0.1
+"""No pass is planned less deep for want of power, in diameters: from there on the feed gives way."""
 
 CORE = 0.75
 """Equivalent diameter of a fluted cutter in its diameter: flutes take a quarter to a third of the section."""
@@ -52,11 +57,15 @@ def most_bent(job: Job, *, to_size: bool = False) -> float:
 def pass_depth(job: Job, tool: Tool, deep: float, *, to_size: bool = False) -> float:
     """Deepest pass, mm, of a mill that cuts with its whole width and ``deep`` mm below the top of the stock.
 
-    It is the ``step_down`` of its cutting data; of a slender mill no more than bends it by what
-    :func:`most_bent` allows, unless the design itself says its ``step_down``.
+    It is the ``step_down`` of its cutting data, and no more than the spindle has the power for; of a slender
+    mill no more than bends it by what :func:`most_bent` allows. Where the design itself says its
+    ``step_down`` it is that, and the feed gives way.
     """
-    planned: float = min(tool.cutting[job.part.material].step_down * tool.diameter, borne_depth(job, tool))
-    if deep <= SLENDER * tool.diameter or says_step_down(job, tool):
+    planned = tool.cutting[job.part.material].step_down * tool.diameter
+    if says_step_down(job, tool):
+        return planned
+    planned = min(planned, borne_depth(job, tool), max(powered_depth(job, tool), SHALLOWEST * tool.diameter))
+    if deep <= SLENDER * tool.diameter:
         return planned
     bending = most_bent(job, to_size=to_size) / deflection(tool, job.part.material, deep, 1.0)
     return min(planned, max(bending, THINNEST * tool.diameter))
@@ -83,6 +92,17 @@ def borne_wall(job: Job, tool: Tool) -> float:
     thinner = math.sin(min(angle, math.pi / 2)) ** (1 - material(job.part.material).force_exponent)
     most = borne_depth(job, tool, OF_FORCE) / thinner
     return math.inf if tool.radius * angle / HELIX <= most else most
+
+
+def powered_depth(job: Job, tool: Tool) -> float:
+    """Depth, mm, of a slot of the mill's width at its planned feed for which the spindle has the power.
+
+    A deeper one at a lower feed takes more power for the same chips, for thin ones are harder to cut.
+    """
+    speed = rates(tool, job.part.material, job.settings.machine)
+    force = milling_force(material(job.part.material), speed.chip, math.pi)
+    per_mm = float(force) * tool.diameter * speed.full / 1000 * WATTS / 1000
+    return float(available(job.settings.machine, speed.spindle)) / per_mm
 
 
 def says_step_down(job: Job, tool: Tool) -> bool:

@@ -13,7 +13,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import ROOMY, MisfitError, usable_mills
 from mechwright_cam.operations.contour_writer import finish_bore_compensated
 from mechwright_cam.operations.contract import Hole, Operation, Task
-from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
+from mechwright_cam.operations.drilling import ON_SIZE, is_clearance, starting_drill, usable_drills
 from mechwright_cam.operations.entry import enters
 from mechwright_cam.operations.finishing import (
     FINISH_STEP,
@@ -81,15 +81,8 @@ class BoreOperation(Operation):
         mill = boring_mill([m for m in able if m.diameter <= largest] or able, feature.diameter)
         if mill is None or mill in chosen:
             return []
-        roomy = [m for m in able if m in chosen and m.diameter <= ROOMY * feature.diameter]
-        other = boring_mill(roomy, feature.diameter)
-        if other is not None:
-            drill = cutters_of(every, feature)[0]
-            first, second = (boring_time(every, feature, drill, m) for m in (other, mill))
-            alike = sum(_size(bore) == _size(feature) for bore in bores(every))
-            if alike * (first - second) <= ONE_MORE + every.settings.machine.tool_change:
-                return []
-        return [mill]
+        more = worth_one_more(every, feature, able, chosen, mill, alike_in(every, feature))
+        return [mill] if more else []
 
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """Out to the finishing allowance, then to size."""
@@ -111,13 +104,34 @@ EXACT = 256
 """Chords of a quarter of a bore, where its edge is looked at."""
 
 
+def worth_one_more(
+    every: Job, bore: Bore, able: Sequence[Tool], chosen: Sequence[Tool], mill: Tool, alike: int
+) -> bool:
+    """Whether a mill for so many bores alike saves more than its change, beside those ``chosen`` already."""
+    roomy = [m for m in able if m in chosen and m.diameter <= ROOMY * bore.diameter]
+    other = boring_mill(roomy, bore.diameter)
+    if other is None:
+        return True
+    drill = starting_drill(every, bore.diameter, -bottom_of(every, bore.top, bore.depth))
+    first, second = (boring_time(every, bore, drill, m) for m in (other, mill))
+    return alike * (first - second) > ONE_MORE + every.settings.machine.tool_change
+
+
+def alike_in(job: Job, bore: Bore) -> int:
+    """How many bores of a job have the size of this one, with itself."""
+    return sum(_size(one) == _size(bore) for one in bores(job))
+
+
 def _size(bore: Bore) -> tuple[float, float, float]:
     return bore.diameter, bore.top, bore.depth
 
 
 def sizing_drill(job: Job, bore: Bore) -> Tool | None:
-    """The drill of its size that makes a small hole through the plate, of which no fit is said."""
-    if bore.fit is not None or bore.diameter >= FINE_MILL / ROOMY:
+    """The drill of its size that makes a hole through the plate of which no fit is said.
+
+    The hole is small, or one through which a screw passes.
+    """
+    if bore.fit is not None or not (bore.diameter < FINE_MILL / ROOMY or is_clearance(bore.diameter)):
         return None
     return _drill_of_size(job, bore)
 
@@ -206,9 +220,18 @@ def _open_radius(air: shapely.Geometry, middle: shapely.Point) -> float:
 
 
 def rough_bore(
-    job: Job, bore: Bore, drill: Tool | None, air: shapely.Geometry, step_down: float, pen: Pen
+    job: Job,
+    bore: Bore,
+    drill: Tool | None,
+    air: shapely.Geometry,
+    step_down: float,
+    pen: Pen,
+    *,
+    to_size: bool = False,
 ) -> None:
     """Write rings out to the finishing allowance, from what a drill or earlier setups have opened.
+
+    ``to_size`` leaves none: a reamer comes after it.
 
     A hole too narrow for the mill is opened along a helix, no turn of which is deeper than ``step_down``, mm.
     Rings are so deep that depth times width is no more than that of a full slot of this depth.
@@ -216,7 +239,7 @@ def rough_bore(
     mill = pen.tool
     data = mill.cutting[job.part.material]
     # Too narrow for an allowance: the finishing circle is the only one.
-    allowance = allowance_in(job, bore.diameter, mill)
+    allowance = 0.0 if to_size else allowance_in(job, bore.diameter, mill)
     widest = bore.diameter / 2 - mill.radius - (allowance or CIRCLE_BIAS)
     if drill is not None and widest + mill.radius <= drill.radius + CIRCLE_BIAS:
         return  # the drill has left just the finishing allowance

@@ -23,6 +23,8 @@ from mechwright_cam.shop.tool import Tool, ToolKind
 
 BELOW = (0.3, 0.1)
 """How far a chamfer mill's tip stands below the chamfer, mm, tried in this order: its very tip cuts badly."""
+SOFTER = 1.01
+"""Ramps are by this share longer than the steepest, for rounding."""
 LAYER = 1.0
 """A chamfer mill goes so much deeper at a time, mm: wide ones, as of countersinks, take several rounds."""
 
@@ -118,7 +120,20 @@ def _around(pen: Pen, paths: list[Path], z: float) -> None:
             pen.above(path.start)
             above = 0.0
             for height in levels(0.0, z, LAYER):
-                pen.enter(path, above, height, clear=False)
-                pen.follow(path)
+                _lap(pen, path, above, height)
                 above = height
     pen.retract()
+
+
+def _lap(pen: Pen, path: Path, above: float, z: float) -> None:
+    """Down along the beginning of a path, once round from there, and over the beginning again."""
+    run = SOFTER * (above - z) / pen.slope
+    if not path.closed or run >= path.length:
+        pen.enter(path, above, z, clear=False)
+        pen.follow(path)
+        return
+    begin, rest = path.split(run)
+    pen.sink(above)
+    pen.descend(begin, z)
+    pen.follow(rest)
+    pen.follow(begin)

@@ -197,14 +197,20 @@ def run_out(mills: Sequence[Tool], settings: CamSettings) -> float:
     return max(mill.diameter + lead_length(mill, settings) + more for mill in mills)
 
 
-def roomy_mills(mills: Sequence[Tool], opening: shapely.Geometry) -> list[Tool]:
-    """The mills that leave room for chips in an opening, largest first; the smallest if none does.
+def roomy_mills(mills: Sequence[Tool], opening: shapely.Geometry, allowance: float) -> list[Tool]:
+    """The mills that have room in an opening, largest first; the smallest if none does.
 
-    A cutter as wide as a slot would cut with its whole width at every depth, and leave nothing to finish.
+    In a slot longer than two diameters a mill cuts with its whole width at every depth, as in the channel
+    around a part. There it needs no more room than for the ``allowance``, mm, on both walls, without which it
+    would leave nothing to finish.
     """
 
     def has_room(mill: Tool) -> bool:
-        return not shapely.is_empty(grow(opening, INSCRIBED / 2 - mill.radius / ROOMY, ROUGH))
+        if not shapely.is_empty(grow(opening, INSCRIBED / 2 - mill.radius / ROOMY, ROUGH)):
+            return True
+        ways = grow(opening, INSCRIBED / 2 - mill.radius - max(allowance, INSCRIBED), ROUGH)
+        boxes = (way.bounds for way in shapely.get_parts(ways))
+        return any(max(x1 - x0, y1 - y0) >= mill.diameter for x0, y0, x1, y1 in boxes)
 
     return list(mills[bisect_left(mills, True, hi=len(mills) - 1, key=has_room) :])
 

@@ -85,9 +85,9 @@ class Clear(Operation):
             inner = polygons(grow(shapes.must, -feature.floor_radius, ROUGH))
             width = 2 * max((entry_place(part)[1] for part in inner), default=0.0)
             return [mill for mill in able if mill.diameter <= min(ROOMY * width, HANDY)][:1]
-        able = roomy_mills(able, shapes.must)
+        able = roomy_mills(able, shapes.must, every.settings.stock_to_leave)
         finest = finest_needed(able, shapes.keep, every.settings, shapes.must if shapes.open else None)
-        return recess_ladder(every, shapes.must, able, finest, -bottom)
+        return recess_ladder(every, shapes.must, able, finest, -bottom)[1]
 
     def open_up(self, layer: Layer, feature: Feature | Detail, *, floored: bool) -> None:
         """What comes before the contour passes; ``floored``: a pass over all of the floor comes after it."""

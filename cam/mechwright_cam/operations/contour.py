@@ -67,7 +67,7 @@ class Contour(Operation):
             return mill is mills[-1] or not slot
 
         finest = finest_needed(mills, shape, settings, fits=fits)
-        return ladder(every, shape, list(filter(fits, mills)), finest)
+        return ladder(every, shape, list(filter(fits, mills)), finest)[1]
 
     def cut(self, task: Task, stock: Stock, steps: Steps) -> Stock:
         """Layer by layer, from the top down."""

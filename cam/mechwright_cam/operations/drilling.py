@@ -4,6 +4,7 @@ import math
 
 from mechwright.contracts.materials import JAMS, material
 from mechwright.geometry.segments import Point
+from mechwright.standards.screws import screw_sizes
 from mechwright_cam.operations.pen import APPROACH
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.plane.path import printed, rounded
@@ -16,6 +17,20 @@ SPOT = 0.6
 
 ON_SIZE = 0.005
 """A drill this near to a hole's diameter makes the hole to size, mm."""
+
+
+CLEARANCES = frozenset(size.clearance(series) for size in screw_sizes() for series in ("fine", "medium"))
+"""Diameters of clearance holes, mm (ISO 273): a screw finds its place in them though a drill has wandered by
+0.1 mm. No other hole above the finest mills is left to a drill: what turns or sits in it needs its place."""
+
+
+def is_clearance(diameter: float) -> bool:
+    """Whether a hole is one through which a screw passes.
+
+    >>> is_clearance(5.5), is_clearance(6.0)
+    (True, False)
+    """
+    return any(abs(diameter - one) <= ON_SIZE for one in CLEARANCES)
 
 
 def point_length(drill: Tool) -> float:

@@ -61,39 +61,53 @@ def change_time(job: Job) -> float:
     return job.settings.machine.tool_change + CHANGE
 
 
-def ladder(job: Job, part: shapely.Polygon, mills: Sequence[Tool], finest: Tool) -> list[Tool]:
-    """The mills from the one that opens the channel down to the ``finest``, largest first.
+Ladder = tuple[float, list[Tool]]
+"""Time, s, and the mills, largest first."""
 
-    All ladders among the ``mills`` that are wider are compared, by the shortest way through them: what one
-    mill leaves to the next depends on these two alone.
+
+def ladder(
+    job: Job, part: shapely.Polygon, mills: Sequence[Tool], finest: Tool, change: float | None = None
+) -> Ladder:
+    """The mills from the one that opens the channel down to the ``finest``, and their time.
+
+    A further mill costs the time of its ``change``, s; by default that of the machine. All ladders among the
+    ``mills`` that are wider are compared, by the shortest way through them: what one mill leaves to the next
+    depends on these two alone.
     """
     deep, wide = -job.floor, [mill for mill in mills if mill.diameter > finest.diameter]
     chain = [*sorted(wide, key=lambda mill: -mill.diameter), finest]
     rough = simplified(part, COARSE)
     left = [left_by(rough, mill.radius + job.settings.stock_to_leave) for mill in chain]
-    best: list[tuple[float, list[Tool]]] = []
+    best: list[Ladder] = []
+    change = change_time(job) if change is None else change
     for n, mill in enumerate(chain):
         ways = [(channel_time(job, rough, mill, deep), [mill])]
         for before, (seconds, tools) in enumerate(best):
             (area, places), (rest, _) = left[before], left[n]
             more = rest_time(job, mill, deep, max(0.0, area - rest), places)
-            ways.append((seconds + more + change_time(job), [*tools, mill]))
+            ways.append((seconds + more + change, [*tools, mill]))
         best.append(min(ways, key=lambda way: (way[0], len(way[1]))))
-    return best[-1][1]
+    return best[-1]
 
 
 def recess_ladder(
-    job: Job, shape: shapely.Geometry, mills: Sequence[Tool], finest: Tool, deep: float
-) -> list[Tool]:
-    """The mills that clear a recess down to the ``finest``, largest first: those that take the least time.
+    job: Job,
+    shape: shapely.Geometry,
+    mills: Sequence[Tool],
+    finest: Tool,
+    deep: float,
+    change: float | None = None,
+) -> Ladder:
+    """The mills that clear a recess down to the ``finest`` in the least time, and this time.
 
     The first takes what it reaches of all, each other what the one before has left.
     """
     wide = [mill for mill in mills if mill.diameter > finest.diameter]
     chain = [*sorted(wide, key=lambda mill: -mill.diameter), finest]
     rough = simplified(shape, COARSE)
+    change = change_time(job) if change is None else change
     reached = [_reached(rough, mill.radius, job.settings.stock_to_leave) for mill in chain]
-    best: list[tuple[float, list[Tool]]] = []
+    best: list[Ladder] = []
     for n, mill in enumerate(chain):
         area = float(reached[n].area)
         ways = [(rest_time(job, mill, deep, area, 1), [mill])]
@@ -101,9 +115,9 @@ def recess_ladder(
             left = shapely.difference(rough, reached[before])
             places = len(polygons(_grown(left, -job.settings.stock_to_leave)))
             more = rest_time(job, mill, deep, max(0.0, area - float(reached[before].area)), places)
-            ways.append((seconds + more + change_time(job), [*tools, mill]))
+            ways.append((seconds + more + change, [*tools, mill]))
         best.append(min(ways, key=lambda way: (way[0], len(way[1]))))
-    return best[-1][1]
+    return best[-1]
 
 
 def _reached(shape: shapely.Geometry, radius: float, leave: float) -> shapely.Geometry:

@@ -42,7 +42,7 @@ SURE = math.radians(3.0)
 """So much less engagement than asked is planned for: decimals and the chords of the middle take some."""
 HALVINGS = 40
 """Of the step, until it is known."""
-LOOSE = 2 * ROUGH
+CLEARANCES = 2 * ROUGH
 """The middle is off by so much at most, mm: cleared discs are taken to be that much smaller."""
 
 
@@ -99,7 +99,7 @@ class Peel(Contour):
         ways = middles(zone, mill, loop, allowance, step)
         if not ways:
             return
-        cleared = shapely.buffer([shapely.LineString(way) for way in ways], hole - LOOSE, quad_segs=16)
+        cleared = shapely.buffer([shapely.LineString(way) for way in ways], hole - CLEARANCES, quad_segs=16)
         before, after = layer.stock.left, layer.stock.without(shapely.union_all(cleared))
         if before.area - after.left.area < WORTH_A_TOOL * before.area:
             return
@@ -126,7 +126,7 @@ def middles(zone: Zone, mill: Tool, loop: float, allowance: float, step: float) 
     free = zone.channel
     if zone.tabs is not None:
         free = shapely.difference(free, grow(zone.tabs, mill.radius + loop + allowance, ROUGH))
-    room = grow(zone.channel, LOOSE - mill.radius - loop, ROUGH)
+    room = grow(zone.channel, CLEARANCES - mill.radius - loop, ROUGH)
     found = []
     for part in polygons(around):
         ring = part.exterior if shapely.is_ccw(part.exterior) else shapely.reverse(part.exterior)

@@ -25,6 +25,9 @@ MOST_TURNS = 64
 NOISE = 1e-9
 """Noise of floating point in a product of both, mm."""
 
+RUBS = 0.5
+"""Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
+
 TOO_FAST = 1.01
 """Beyond this share of its cutting speed a cutter runs too fast: less is rounding."""
 
@@ -70,6 +73,11 @@ def runs_too_fast(tool: Tool, material: str, machine: Machine, diameter: float |
     """
     most = 1000 * cutting_data(tool, material).cutting_speed * TOO_FAST
     return machine.spindle_min * math.pi * (tool.diameter if diameter is None else diameter) > most
+
+
+def rubs(tool: Tool, material: str, machine: Machine) -> bool:
+    """Whether the machine feeds a tool so slowly that its teeth take next to nothing."""
+    return rates(tool, material, machine).chip < RUBS * cutting_data(tool, material).chip_load
 
 
 def rates(

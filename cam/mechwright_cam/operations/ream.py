@@ -8,7 +8,8 @@ import shapely
 
 from mechwright.contracts.details import Detail
 from mechwright.contracts.part import Bore, Feature
-from mechwright_cam.operations.bore import EXACT, boring_mill, finish_bore, rough_bore
+from mechwright.errors import ToolError
+from mechwright_cam.operations.bore import EXACT, alike_in, boring_mill, rough_bore, worth_one_more
 from mechwright_cam.operations.choice import usable_mills
 from mechwright_cam.operations.contract import Hole, Operation, Task
 from mechwright_cam.operations.drilling import ON_SIZE, starting_drill, usable_drills
@@ -50,11 +51,16 @@ class Ream(Operation):
         return Task(feature, self, tools, -feature.top, job.floor, region, hole)
 
     def choose(self, feature: Feature | Detail, every: Job, chosen: Sequence[Tool]) -> Sequence[Tool] | None:
-        """The reamer of the crib, and a mill where no drill leaves it its allowance."""
+        """The reamer of the crib, and a mill that opens its hole where none of those chosen does."""
         way = reaming(every, feature) if isinstance(feature, Bore) else None
-        if way is None:
+        if way is None or not isinstance(feature, Bore):
             return None
-        return [tool for tool in (way.mill, way.reamer) if tool is not None and tool not in chosen]
+        if way.mill is None or way.mill in chosen:
+            return [way.reamer]
+        small = opened(feature, way.reamer)
+        able = _opening_mills(every, small.diameter)
+        more = worth_one_more(every, small, able, chosen, way.mill, alike_in(every, feature))
+        return [way.mill, way.reamer] if more else [way.reamer]
 
     def deepest(self, task: Task, tool: Tool) -> float:
         """A reamer goes through with its lead."""
@@ -67,10 +73,9 @@ class Ream(Operation):
         small = opened(bore, reamer)
         for mill in mills:
             drill, air = task.hole.drill if task.hole else None, stock.air_below(task.top)
-            steps.add(
-                f"{bore.name}: bore", mill, partial(rough_bore, job, small, drill, air, steps.step_down(mill))
-            )
-            steps.add(f"{bore.name}: bore for the reamer", mill, partial(finish_bore, job, small))
+            step_down = steps.step_down(mill, to_size=True)
+            write = partial(rough_bore, job, small, drill, air, step_down, to_size=True)
+            steps.add(f"{bore.name}: bore for the reamer", mill, write)
         steps.add(f"{bore.name}: ream", reamer, partial(_ream, bore=bore, bottom=task.bottom - REAMER_LEAD))
         return Stock(gone=stock.gone)
 
@@ -101,23 +106,36 @@ def opened(bore: Bore, reamer: Tool) -> Bore:
 def reaming(job: Job, bore: Bore) -> Reaming | None:
     """How a hole is reamed; None for one that is blind, or where there is no reamer, or nothing to open it.
 
-    A drill that leaves the reamer its allowance comes before a mill.
+    A hole of which no fit is said is reamed only by a reamer that the design names.
+
+    A reamer follows the hole that it finds. So a mill that enters the hole brings it to its place first: a
+    drill wanders by up to 0.1 mm, and is taken where no mill enters.
     """
     depth = -job.floor
     if bore.top > 0 or not through(job, bore.top + bore.depth):
         return None
-    fitting = (tool for tool in job.tools_of(ToolKind.REAMER) if reams_to_size(tool, bore))
+    wanted = bore.fit is not None or bool(job.settings.tools)
+    fitting = (tool for tool in job.tools_of(ToolKind.REAMER) if wanted and reams_to_size(tool, bore))
     reamer = next((tool for tool in fitting if tool.flute_length >= depth + REAMER_LEAD), None)
     if reamer is None:
         return None
+    small = opened(bore, reamer).diameter
+    if (mill := boring_mill(_opening_mills(job, small), small)) is not None:
+        return Reaming(reamer, starting_drill(job, small, depth), mill)
     least, most = allowance(reamer.diameter)
     for drill in usable_drills(job, depth):
         if least - ON_SIZE <= reamer.diameter - drill.diameter <= most + ON_SIZE:
             return Reaming(reamer, drill, None)
-    small = opened(bore, reamer).diameter
-    able = [tool for tool in usable_mills(job, depth) if tool.nose == 0 and enters(tool, small, job.settings)]
-    mill = boring_mill(able, small)
-    return None if mill is None else Reaming(reamer, starting_drill(job, small, depth), mill)
+    return None
+
+
+def _opening_mills(job: Job, diameter: float) -> list[Tool]:
+    """The flat mills that enter a through hole of a diameter, mm, largest first."""
+    try:
+        usable = usable_mills(job, -job.floor)
+    except ToolError:
+        return []
+    return [tool for tool in usable if tool.nose == 0 and enters(tool, diameter, job.settings)]
 
 
 def reams_to_size(reamer: Tool, bore: Bore) -> bool:

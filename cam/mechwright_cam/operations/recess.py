@@ -101,7 +101,7 @@ def recess(
         return Recess(must, must, must, True)
     first = not far
     if first:
-        far = run_out(roomy_mills(mills, must)[:1], job.settings)
+        far = run_out(roomy_mills(mills, must, job.settings.stock_to_leave)[:1], job.settings)
         far = far if roomy else max(far, mills[0].diameter)
     (x0, y0, x1, y1), wide = shape.bounds, 4 * far
     window = shapely.box(x0 - wide, y0 - wide, x1 + wide, y1 + wide)

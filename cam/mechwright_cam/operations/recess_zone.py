@@ -102,7 +102,7 @@ def _mills(
     if floor_radius(feature) > 0:
         last = floor_mill(job, feature, usable, shapes)[0]
         _check_passages(job, feature, last, shapes)
-        return tuple(roomy_mills(usable, shapes.must)), (last,), ()
+        return tuple(roomy_mills(usable, shapes.must, job.settings.stock_to_leave)), (last,), ()
     if not any(map(enters, reversed(usable))):
         usable = usable_mills(job, -bottom, enters=enters)
         if not any(map(enters, reversed(usable))):
@@ -110,7 +110,7 @@ def _mills(
                 f"cam.tools: no listed end mill enters {feature.name} of part {job.part.name}; the "
                 f"smallest that cuts {-bottom:g} mm deep is {usable[-1].name}; list a smaller one"
             )
-    mills = roomy_mills(usable, shapes.must)
+    mills = roomy_mills(usable, shapes.must, job.settings.stock_to_leave)
     finishing = with_sharper(usable, mills, lambda mill: reached(mill) >= SCRATCH)
     near = shapes.must if shapes.open else None
     last_ones = last_mills(finishing, shapes.keep, job.settings, near, high)
@@ -152,7 +152,7 @@ def floor_mill(
             f"cam.tools: {able[-1].name} makes the floor of {feature.name} of part {job.part.name}, but is "
             "wider than it; list a narrower mill with this corner radius, or give it a smaller floor_radius"
         )
-    fit = roomy_mills(fit, shapes.must)
+    fit = roomy_mills(fit, shapes.must, job.settings.stock_to_leave)
     return finishing_choice(fit, shapes.keep, job.settings, shapes.must if shapes.open else None), False
 
 

@@ -113,15 +113,19 @@ def _misses(job: Job, tap: Tool, thread: Thread, hole: Bore) -> str:
 
 
 def core_drill(job: Job, hole: Bore) -> Tool | None:
-    """The drill for a hole that is tapped: nearest to D - P of those within the tolerance of the core."""
+    """The drill for a hole that gets a thread: nearest to D - P of those within the tolerance of the core.
+
+    Its full diameter reaches as deep as the tap of the job, or without one as deep as the thread.
+    """
     thread = thread_in(job, hole)
-    if thread is None or hole.fit is not None or (tap := tap_of(job, thread)) is None:
+    if thread is None or hole.fit is not None:
         return None
-    play, fit = CORE_PLAY * thread.pitch, []
+    tap, play, fit = tap_of(job, thread), CORE_PLAY * thread.pitch, []
+    wanted = thread.depth if tap is None else tapped_deep(tap, thread)
     for drill in job.tools_of(ToolKind.DRILL):
         tip = point_length(drill)
         ends = -bottom_of(job, 0.0, hole.depth) if through(job, hole.depth) else hole.depth - tip
-        deep = through(job, hole.depth) or ends >= tapped_deep(tap, thread)
+        deep = through(job, hole.depth) or ends >= wanted
         if deep and drill.flute_length >= ends + tip and -ON_CORE <= drill.diameter - hole.diameter <= play:
             fit.append(drill)
     return min(fit, key=lambda drill: abs(drill.diameter - (thread.diameter - thread.pitch)), default=None)

@@ -15,7 +15,9 @@ from mechwright.shell import file_word
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.holding_force import holding_findings
 from mechwright_cam.planning.in_hand import from_hand
+from mechwright_cam.planning.nest_note import nest_notes
 from mechwright_cam.planning.nesting import NestNameError, arranged
 from mechwright_cam.planning.remarks import merged_tool_findings
 from mechwright_cam.planning.setups import lay_out_setups
@@ -132,6 +134,7 @@ class Preparation:
             findings = merged_tool_findings(findings, _used(jobs, self.assignments))
             findings += self._as_cut(tops)
             findings += [*self._unused_data(jobs), *_estimated(jobs, self.assignments)]
+            findings += nest_notes(self.settings, jobs)
         return findings, jobs
 
     def _of_part(self, part: Part, cam: CamSettings) -> tuple[list[Finding], list[Job]]:
@@ -144,7 +147,7 @@ class Preparation:
                 cam = cam.model_copy(update={"stock": blank})
                 laid, found = lay_out_setups(part, cam, own, self.assignments)
             found += more
-        found += [finding for job in laid for finding in check_machine(job)]
+        found += [finding for job in laid for finding in (*check_machine(job), *holding_findings(job))]
         if self.shop is not None and errors(found):
             buy = to_buy(part, cam, own, self.assignments, self.shop)
             found += [] if buy is None else [buy]

@@ -14,9 +14,10 @@ from mechwright_cam.operations.bending import SLENDER, deflection, most_bent, pa
 from mechwright_cam.operations.choice import MisfitError, long_enough
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.drilling import SPOT
-from mechwright_cam.operations.rates import rates, runs_too_fast
+from mechwright_cam.operations.rates import RUBS, rates, rubs, runs_too_fast
 from mechwright_cam.operations.tap import declined
 from mechwright_cam.planning.assign import Assignments
+from mechwright_cam.planning.better_process import better_process
 from mechwright_cam.planning.selection import choose_tools
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import check_clamp, make_job
@@ -25,9 +26,6 @@ from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
-
-RUBS = 0.5
-"""Below this share of its chip load a tooth rubs as much as it cuts: usual ranges reach about so far down."""
 
 
 def lay_out(
@@ -65,6 +63,7 @@ def lay_out(
             found += task.operation.remarks(task, job)
         every = replace(job, tools=library.tools)
         found += declined(every, assigned.tasks, assignments.untapped(library))
+        found += better_process(job, assigned.tasks)
         idle = _idle(job, assigned.tasks)
         if settings.tools:
             found += [_idling(job, mill) for mill in idle]
@@ -173,8 +172,8 @@ def _speeds(job: Job, tool: Tool) -> Iterator[Finding]:
         slowest, wanted = machine.spindle_min, 1000 * data.cutting_speed / (math.pi * width)
         where, remedy = "cam.machine.spindle_min", "take a smaller tool"
         yield Finding.warning("cam.too-fast", where, message, slowest, wanted, "rpm", remedy)
-    least = RUBS * data.chip_load
-    if planned.chip < least:
+    if rubs(tool, material, machine):
+        least = RUBS * data.chip_load
         message = (
             f"{tool.name} gets {planned.chip:.3f} mm per tooth at {planned.spindle:.0f} rev/min, not the "
             f"{data.chip_load:g} mm of its chip load, and rubs"

@@ -8,6 +8,7 @@ from itertools import product
 import shapely
 
 from mechwright.contracts.details import Detail
+from mechwright.contracts.materials import material
 from mechwright.contracts.part import Bore, Feature, Part, Pocket, Profile, is_outside
 from mechwright.errors import DesignError, GeometryError, MechwrightError, ToolError
 from mechwright_cam.operations.bore import cutters_of
@@ -17,7 +18,7 @@ from mechwright_cam.operations.contract import Operation
 from mechwright_cam.operations.drilling import starting_drill
 from mechwright_cam.operations.hole_times import holes_time
 from mechwright_cam.operations.ladder import change_time
-from mechwright_cam.operations.rates import runs_too_fast
+from mechwright_cam.operations.rates import rates, rubs, runs_too_fast
 from mechwright_cam.operations.ream import reaming
 from mechwright_cam.operations.recess_zone import first_look, floor_mill
 from mechwright_cam.operations.stock import Stock
@@ -25,6 +26,7 @@ from mechwright_cam.operations.tap import core_drill
 from mechwright_cam.operations.twins import Twins
 from mechwright_cam.operations.zone import Zone
 from mechwright_cam.planning.assign import Assignments, assign
+from mechwright_cam.planning.fewer_mills import fewer_mills
 from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.lay_out import make_job
@@ -34,6 +36,8 @@ from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
 
+MOST_FLUTES = 3
+"""With more a mill has too little room for the chips of a slot in soft material (handbook: 2 to 3)."""
 AMPLE = 1000.0
 """Where the design leaves the stock open, cutters are chosen as if so much were around the part, mm."""
 MOST_DRILLS = 5
@@ -67,7 +71,7 @@ def choose_tools(
     operations = assignments.operations(settings)
     useless = assignments.untapped(library)
     library = Library(tuple(tool for tool in library.tools if tool.name not in useless))
-    library = _usable(part, settings, library)
+    library = _best_fed(part, settings, _usable(part, settings, library))
     slow = _slow_enough(part, settings, library)
     if len(slow.tools) < len(library.tools):
         try:
@@ -82,14 +86,18 @@ def _chosen(
 ) -> tuple[Tool, ...]:
     """The choice among all cutters of a library."""
     flat = tuple(tool for tool in library.tools if tool.nose == 0)
-    every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, AMPLE))
+    every = Job(part, settings, flat, (0.0, 0.0), plate_box(part, settings, (AMPLE, AMPLE)))
     for outline in part.outlines:
         outline.polygon()  # one that cuts itself is refused before anything is grown around it
     chosen: list[Tool] = []
     twins = Twins(every)
+    asked: list[tuple[Feature, Sequence[Tool]]] = []
     for feature in sorted(every.features, key=_turn):
         if twins.first(feature) is None:  # a turned copy asks for the same again
-            chosen += _wanted(feature, every, chosen, operations)
+            asked.append((feature, _wanted(feature, every, chosen, operations)))
+            chosen += asked[-1][1]
+    idle = fewer_mills(every, asked)
+    chosen = [tool for tool in chosen if tool.name not in idle]
     chosen += _floor_mills(replace(every, tools=library.tools))
     mills = list({mill.name: mill for mill in chosen}.values())
     drills = _drills(every, mills)
@@ -169,6 +177,35 @@ def _usable(part: Part, settings: CamSettings, library: Library) -> Library:
     )
     cuts = any(tool.kind in MILLS and tool.flute_length >= through for tool in usable)
     return Library(usable) if cuts else library
+
+
+def _best_fed(part: Part, settings: CamSettings, library: Library) -> Library:
+    """Of flat mills of one diameter the one with the fastest feed, if its flutes are long enough.
+
+    One whose teeth rub on this machine gives way to one with fewer flutes, and so does one with more than
+    :data:`MOST_FLUTES` in soft material. Of two that are fed alike that with fewer stays.
+    """
+    machine, deep = settings.machine, part.thickness + settings.breakthrough
+    stuff = material(part.material)
+    soft = stuff.long_chips and stuff.kind != "steel"
+    order: dict[str, tuple[bool, bool, float, int]] = {}
+    for tool in library.tools:
+        if tool.kind is ToolKind.END_MILL and part.material in tool.cutting:
+            fed = rates(tool, part.material, machine).feed
+            roomy = not soft or tool.flutes <= MOST_FLUTES
+            order[tool.name] = not rubs(tool, part.material, machine), roomy, fed, -tool.flutes
+
+    def beaten(tool: Tool) -> bool:
+        reach = min(tool.flute_length, deep)
+        return tool.name in order and any(
+            other.diameter == tool.diameter
+            and other.flute_length >= reach
+            and order[other.name] > order[tool.name]
+            for other in library.tools
+            if other.name in order
+        )
+
+    return Library(tuple(tool for tool in library.tools if not beaten(tool)))
 
 
 def _slow_enough(part: Part, settings: CamSettings, library: Library) -> Library:

@@ -25,6 +25,7 @@ from mechwright.geometry.mirror import turned_over, turned_point
 from mechwright_cam.plane.offsets import ROUGH, filled, grow
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.remarks import lay_out, refusal
+from mechwright_cam.setup.clamping import least_margin, widest_channel
 from mechwright_cam.setup.job import LEVEL, Air, Job
 from mechwright_cam.setup.sides import SIGNS, _over, sides
 from mechwright_cam.setup.thin_floors import thin_floors
@@ -169,7 +170,8 @@ def _with_room(job: Job) -> CamSettings:
     settings = job.settings
     if settings.stock != Stock():
         return settings
-    return settings.model_copy(update={"stock": Stock(margin=math.ceil(_beside(job)))})
+    margin = max(math.ceil(_beside(job)), least_margin(widest_channel(job)))
+    return settings.model_copy(update={"stock": Stock(margin=margin)})
 
 
 def _beside(job: Job) -> float:

@@ -96,9 +96,11 @@ def _depth(detail: Detail, kind: ToolKind, job: Job) -> float:
     if not isinstance(detail, Thread) or kind is ToolKind.THREAD_MILL:
         return detail.depth
     taps, hole = [tap for tap in job.tools if makes(tap, detail)], core_of(job, detail)
-    if not taps or hole is None:
+    if hole is None:
         return 0.0
-    return hole.depth if kind is ToolKind.DRILL else max(tapped_deep(tap, detail) for tap in taps)
+    if kind is ToolKind.DRILL:
+        return hole.depth
+    return max((tapped_deep(tap, detail) for tap in taps), default=0.0)
 
 
 def _given(detail: Detail, kind: ToolKind, depth: float = 0.0) -> Shape:

@@ -10,6 +10,7 @@ import shapely
 from mechwright.contracts.part import Feature, Part, Profile
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
+from mechwright_cam.setup.clamping import rim_margins
 from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.holding import Clamp, ToeClamp
 from mechwright_cam.setup.job import PEELED, Job
@@ -25,6 +26,9 @@ _TALL = 0.7
 
 _LOWEST_TAB = 0.4
 """No lower tab is chosen for the sake of a recess beside the outside, mm: the next vibration breaks it."""
+
+FRAME = 3.0
+"""Least width of the frame around the widest channel where the design leaves the stock open, mm."""
 
 CLAMP_RIM = 1.0
 """A clamp that the program chooses lies at least so wide on the part around its opening, mm."""
@@ -47,8 +51,7 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
     """
     settings = _with_usual_tabs(settings, part.thickness)
     widest = widest_mill(tools) * (1.0 if settings.outsides == "contour" else PEELED)
-    # A frame has to stay around the channel that the largest cutter opens: 3 mm is stiff enough for tabs.
-    stock = plate_box(part, settings, widest + 3.0)
+    stock = plate_box(part, settings, _margins(part, settings, widest))
     origin = {
         "axis": (0.0, 0.0),
         "corner": (stock[0], stock[1]),
@@ -83,6 +86,17 @@ def make_job(part: Part, settings: CamSettings, tools: Sequence[Tool], below: Se
     x0, y0, _, _ = placed.target.bounds
     barred = [moved_feature(feature, -origin[0], -origin[1]) for feature in below]
     return _on_tabs(placed, max(x0 - placed.stock[0], y0 - placed.stock[1]), barred)
+
+
+def _margins(part: Part, settings: CamSettings, widest: float) -> tuple[float, float]:
+    """Stock beyond a part in X and Y, mm, around the channel that the largest cutter opens.
+
+    A frame of 3 mm is stiff enough for tabs. Where toe clamps hold the plate it is wide enough for these.
+    """
+    if settings.hold.method not in {"tabs", "bore"} or part.outline is None:
+        return widest + FRAME, widest + FRAME
+    x0, y0, x1, y1 = part.outline.bounds
+    return rim_margins(x1 - x0, y1 - y0, widest + settings.stock_to_leave)
 
 
 def _on_tabs(job: Job, reach: float, below: Sequence[Feature]) -> Job:

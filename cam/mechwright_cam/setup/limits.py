@@ -101,8 +101,8 @@ def _span(job: Job) -> Iterator[Finding]:
     if wanted > machine.travel_z:
         message = (
             f"part {job.part.name} asks for {wanted:.1f} mm of travel in Z: {job.thickness:g} of stock, "
-            f"{settings.breakthrough:g} below it, {clamp_height(settings):g} of clamps and {settings.clearance:g} of "
-            f"clearance; the machine has {machine.travel_z:g}"
+            f"{settings.breakthrough:g} below it, {clamp_height(settings):g} of clamps and "
+            f"{settings.clearance:g} of clearance; the machine has {machine.travel_z:g}"
         )
         remedy = "take thinner stock, or hold it by tabs or from below"
         yield Finding.error(

@@ -11,10 +11,11 @@ Box = tuple[float, float, float, float]
 """Least x, least y, greatest x, greatest y, mm."""
 
 
-def plate_box(part: Part, settings: CamSettings, margin: float) -> Box:
+def plate_box(part: Part, settings: CamSettings, margins: tuple[float, float]) -> Box:
     """The stock around a part, in the part's coordinates.
 
-    ``margin`` is the stock around it where the design leaves that open, mm; there is none at a finished edge.
+    ``margins`` are the stock beyond it in X and Y where the design leaves that open, mm; there is none at a
+    finished edge.
     Raises GeometryError for a part that is no plate, DesignError for one that does not fit into the stock, or
     not between its finished edges.
     """
@@ -22,8 +23,8 @@ def plate_box(part: Part, settings: CamSettings, margin: float) -> Box:
         raise GeometryError(f"part {part.name} is no plate: it has no outline to mill")
     x0, y0, x1, y1 = part.outline.bounds
     wanted = settings.stock
-    left, right = _beside(part, settings, "length", x1 - x0, ("left", "right"), margin)
-    front, rear = _beside(part, settings, "width", y1 - y0, ("front", "rear"), margin)
+    left, right = _beside(part, settings, "length", x1 - x0, ("left", "right"), margins[0])
+    front, rear = _beside(part, settings, "width", y1 - y0, ("front", "rear"), margins[1])
     if min(left, right, front, rear) < 0:
         raise DesignError(
             f"cam.stock: the part {part.name} is {x1 - x0:.1f} x {y1 - y0:.1f} mm and does not fit into "

@@ -107,10 +107,10 @@ class Machine(Parameters):
         (), max_length=20, description="Speeds at the marks 1, 2, 3 ... of that dial."
     )
     spindle_power: Kilowatts = Field(
-        5.5, gt=0, le=200, description="Power of the spindle motor above its base speed."
+        2.2, gt=0, le=200, description="Power of the spindle motor above its base speed."
     )
     spindle_torque: NewtonMetres = Field(
-        30.0, gt=0, le=5000, description="Torque of the spindle below its base speed."
+        10.5, gt=0, le=5000, description="Torque of the spindle below its base speed."
     )
     spindle_efficiency: Ratio = Field(
         0.8, gt=0, le=1, description="Share of power and torque that reaches the cut."

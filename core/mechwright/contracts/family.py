@@ -188,7 +188,7 @@ class Family(Plugin, Generic[P]):
         return None
 
     def draft(self, source: str, text: str) -> P:  # noqa: ARG002 - used by families that have some
-        """The design that ``new`` writes: what it sets, with the keys that one sets first. The default sets none.
+        """The design that ``new`` writes: what it sets, with the keys that one sets first.
 
         Parameters
         ----------

@@ -15,6 +15,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.beds import bed_and_clamp_lines
 from mechwright_cam.pages.setup_sheet.compensation import lines
+from mechwright_cam.pages.setup_sheet.holding import edge_line, holding_lines
 from mechwright_cam.pages.setup_sheet.probing import about_measuring, about_probing
 from mechwright_cam.pages.setup_sheet.several import (
     about_others,
@@ -139,14 +140,15 @@ def _stock(job: Job, deepest: float, to: Lengths) -> Step:
             f"Put a spoil board under it: cutters go down to Z {to.signed(deepest)}, "
             f"{to.fixed(-deepest - job.thickness)} {to.unit} below the plate."
         )
+    if job.settings.hold.method == "none":
+        lines += bed_and_clamp_lines(job, to)
+    lines += holding_lines(job, to)
     if job.tabs:
         lines.append(
-            "Clamp the edge of the plate only. Keep clamps outside the picture's coloured band, and below "
+            "Keep all that holds it outside the picture's coloured band, and below "
             f"Z {to.signed(job.settings.clearance, 1)} where rapids cross."
         )
-    elif job.settings.hold.method == "none":
-        lines += bed_and_clamp_lines(job, to)
-    else:
+    elif job.clamp is not None:
         lines.append("Clamp the plate for the openings first; the bore clamp comes when the program stops.")
     return Step("Clamp the stock", tuple(lines))
 
@@ -173,6 +175,7 @@ def _vice(job: Job, deepest: float, to: Lengths) -> Step:
             f"Keep parallels away from holes and ends: cutters go down to Z {to.signed(deepest)}, "
             f"{to.fixed(-deepest - job.thickness)} {to.unit} below the bar."
         )
+    lines += holding_lines(job, to)
     return Step("Clamp the bar in a vice", tuple(lines))
 
 
@@ -236,6 +239,7 @@ def _turn(job: Job, to: Lengths) -> Step:
         f"Turn the plate over about the {side.flip.upper()} axis: its {edges}. The tabs are on top "
         "now; leave the frame on.",
         "Support the part from below: it hangs by the tabs only. Clamp the frame.",
+        *holding_lines(job, to),
     ]
     if side.locate == "dowels":
         lines.append(
@@ -391,6 +395,7 @@ def _run(job: Job, control: Control, file_names: Sequence[str], to: Lengths, *, 
             f"{len(job.tabs)} tabs of {to.plain(width)} × {to.with_unit(height)}{sides} hold the {what} "
             "to the end. Saw them through, and file them flush."
         )
+    lines.append(edge_line(job, to))
     if job.clamp is not None:
         lines.append(
             f"At the programmed stop fit the bore clamp, at most ⌀{to.plain(job.clamp.diameter)} and "
