@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import Finding, Standing, refuse
+from mechwright import DesignError, Finding, Standing, refuse
 from mechwright_plate.params import PlateParams
 
 if TYPE_CHECKING:
@@ -18,6 +18,20 @@ class Plate(Standing[PlateParams]):
     summary = "A flat part from a DXF drawing, whose layers say what is cut and how deep."
     Params = PlateParams
     bodies: ClassVar[tuple[str, ...]] = ("bench",)
+
+    def draft(self, source: str, text: str) -> PlateParams:
+        """A plate from a drawing, each of its layers with a meaning."""
+        from mechwright import InputFile
+        from mechwright.drawings.reading import layers_of
+
+        if not source:
+            return PlateParams()
+        if not text:
+            raise DesignError(
+                f"--from: {source!r} is no file; name a DXF drawing that lies beside the design"
+            )
+        data = text.encode()
+        return PlateParams(drawing=InputFile(source, data), layers=layers_of(data))
 
     def check(self, params: PlateParams) -> Sequence[Finding]:
         """What keeps the drawing from being a plate, each with its place; what was mended or left out."""

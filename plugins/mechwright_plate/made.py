@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from mechwright import Bore, Finding, Instance, Part, Severity, Stage, kept
 from mechwright.contracts.details import Thread
+from mechwright.contracts.finding import Change
 from mechwright.contracts.part import name_from
 from mechwright.drawings.plate import Cut, part_of
 from mechwright.drawings.reading import Drawn, read
@@ -107,6 +108,8 @@ def _name(file: str) -> str:
 
 
 def _findings(params: PlateParams, drawn: Drawn, part: Part | None) -> Iterator[Finding]:
+    likely = drawn.told.likely
+    proposed: tuple[Change, ...] = ({"parameters.layers": {**params.layers, **likely}},) if likely else ()
     for fault in drawn.told.faults:
         yield Finding(
             f"plate.{fault.code}",
@@ -115,6 +118,7 @@ def _findings(params: PlateParams, drawn: Drawn, part: Part | None) -> Iterator[
             _line(fault.message),
             remedy=_line(fault.remedy),
             stage=Stage.PARTS,
+            proposed=proposed if fault.code == "layer" else (),
         )
     notes = list(drawn.told.notes)
     if not params.drawing.name:

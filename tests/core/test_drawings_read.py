@@ -196,7 +196,7 @@ def on_paper(space):
         (lambda space: box(space, 0, 0, 40, 40, "POCKET_x_3"), "'X' is not understood"),
         (
             lambda space: (box(space, 0, 0, 9, 9, "A"), box(space, 1, 1, 8, 8, "B")),
-            "nobody says what layer A means",
+            "layer A has",
         ),
         (lambda space: space.add_line((0, 0), (9, 0)), "the contour is open at X9.000 Y0.000, where LINE 2F"),
     ],

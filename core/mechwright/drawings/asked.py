@@ -1,5 +1,6 @@
 """How a drawing is to be read: what a design file says of it."""
 
+import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -145,7 +146,21 @@ def sorted_out(
         told.note(f"layer {layer}: the outline, and what lies in it goes through")
         found[Meaning("through")] = rest
         return found
+    from mechwright.drawings.guess import guesses
+
+    words = guesses(open_, outlined=any(meant.kind == "outline" for meant in found)) if open_ else {}
+    told.likely |= words
     for layer, rest in open_.items():
-        said = f"nobody says what layer {layer} means, and it has curves ({len(rest)})"
-        told.fault("layer", said, _REMEDY.format(layer), "layers")
+        curves = "1 curve" if len(rest) == 1 else f"{len(rest)} curves"
+        said = f"layer {layer} has {curves} and no meaning"
+        remedy = (
+            f'add to [parameters.layers]: {toml_key(layer)} = "{words[layer]}"; or another meaning: '
+            '"through", "bore H7", "pocket 3.5", "M5", "engrave 0.2", "chamfer 0.5", "ignore"'
+        )
+        told.fault("layer", said, remedy, "layers")
     return found
+
+
+def toml_key(layer: str) -> str:
+    """The name of a layer as a key in quotes."""
+    return json.dumps(layer, ensure_ascii=False)

@@ -30,6 +30,8 @@ class Told:
     faults: list[Fault] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
+    likely: dict[str, str] = field(default_factory=dict)
+    """Layers without a meaning, and what they are likely to mean."""
 
     def fault(self, code: str, message: str, remedy: str, key: str = "drawing") -> None:
         """Note a fault; those beyond the most that are told are dropped, and so are repetitions."""

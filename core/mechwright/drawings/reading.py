@@ -76,6 +76,32 @@ def read(data: bytes, asked: Asked, others: Meaning | None = None) -> Drawn:
     return found
 
 
+def layers_of(data: bytes) -> dict[str, str]:
+    """Each layer of a drawing that has curves, with what it means by its name, or is likely to mean.
+
+    Raises DesignError for what is no DXF drawing.
+    """
+    from mechwright.drawings.guess import guesses
+    from mechwright.drawings.opened import opened
+    from mechwright.drawings.shown import strokes
+    from mechwright.drawings.units import unit_of
+
+    told, asked = Told(), Asked()
+    document = opened(data)
+    meanings = Meanings(asked, unit_of(document, asked.units, told), told)
+    by_layer: dict[str, list[Stroke]] = {}
+    for stroke in strokes(document, 1.0, meanings.named, lambda *_: False, told):
+        by_layer.setdefault(stroke.layer, []).append(stroke)
+    known = {
+        layer: meant
+        for layer in by_layer
+        if (meant := meanings.of(layer, by_layer[layer][0].colour)) is not None
+    }
+    rest = {layer: some for layer, some in by_layer.items() if layer not in known}
+    words = guesses(rest, outlined=any(meant.kind == "outline" for meant in known.values())) if rest else {}
+    return {layer: layer.replace("_", " ") if layer in known else words[layer] for layer in by_layer}
+
+
 def _unknown_layers(asked: Asked, document: "Drawing", told: Told) -> None:
     """Refuse a layer that is named and is not there: a slip of the pen would cut it otherwise."""
     drawn = {str(one.dxf.layer) for one in document.entitydb.values() if one.dxf.hasattr("layer")}
