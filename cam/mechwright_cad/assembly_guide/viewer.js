@@ -1,5 +1,4 @@
 // The mechanism of this page in space; where it cannot be drawn, the exploded view below is the picture.
-const shown = new Map();
 function viewer(data, kept, signal) {
 {% include "data.js" %}
 

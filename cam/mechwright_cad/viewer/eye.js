@@ -21,10 +21,14 @@ function eyeOn(canvas, ball, up, kept_, moved) {
   own.unit = () => { const box = canvas.getBoundingClientRect(); return own.zoom * Math.min(box.width, box.height) / own.reach / 2; }; // pixels in a millimetre
   own.middle = () => { const rows = own.rows(); return plus(plus(ball.centre, rows[0], own.right), rows[1], own.high); };
   // Where a place is on the canvas, with its height towards the eye; and the place there in the plane of the middle.
-  own.to = (p) => {
-    const rows = own.rows(), box = canvas.getBoundingClientRect(), unit = own.unit(), off = plus(p, own.middle(), -1);
-    return [box.width / 2 + dot(rows[0], off) * unit, box.height / 2 - dot(rows[1], off) * unit, dot(rows[2], off)];
+  own.projection = () => {
+    const rows = own.rows(), box = canvas.getBoundingClientRect(), unit = own.unit(), middle = own.middle();
+    return (p) => {
+      const off = plus(p, middle, -1);
+      return [box.width / 2 + dot(rows[0], off) * unit, box.height / 2 - dot(rows[1], off) * unit, dot(rows[2], off)];
+    };
   };
+  own.to = (p) => own.projection()(p);
   own.from = (x, y) => {
     const rows = own.rows(), box = canvas.getBoundingClientRect(), unit = own.unit();
     return plus(plus(own.middle(), rows[0], (x - box.width / 2) / unit), rows[1], (box.height / 2 - y) / unit);

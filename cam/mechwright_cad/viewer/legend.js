@@ -1,4 +1,6 @@
-// What can be hidden: a box for each name, those of one group together under a box for all of them.
+// What can be hidden: name to a function that shows it or not; and how each name is marked.
+const shown = new Map();
+// A box for each name, those of one group together under a box for all of them.
 function legendIn(place, shown_, kept_) {
   const boxes = new Map(), groups = new Map();
   const box_ = (parent, text, colour) => {

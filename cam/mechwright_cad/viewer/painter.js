@@ -7,7 +7,7 @@ uniform vec2 nudge; out vec3 across; out vec3 place;
 void main() { place = turn * point + shift; vec3 seen = view * (place - middle); across = view * (turn * normal);
 gl_Position = vec4(seen.xy * scale + nudge, -seen.z * deep - nearer, 1.0); }`;
 const FRAGMENT = `#version 300 es
-precision highp float; uniform vec3 colour; uniform float lit; uniform vec4 cut; in vec3 across; in vec3 place; out vec4 shown;
+precision highp float; uniform vec3 colour; uniform float lit; uniform float alpha; uniform vec4 cut; in vec3 across; in vec3 place; out vec4 shown;
 void main() {
   if (dot(cut.xyz, place) > cut.w) discard;
   if (lit < 0.5) { shown = vec4(colour, 1.0); return; }
@@ -16,7 +16,7 @@ void main() {
     shown = vec4(colour * (0.86 - 0.3 * line), 1.0); return; }
   vec3 n = normalize(across);
   float light = 0.42 + 0.48 * max(dot(n, normalize(vec3(0.3, 0.6, 0.8))), 0.0) + 0.2 * abs(n.z);
-  shown = vec4(colour * light, 1.0); }`;
+  shown = vec4(colour * light, 1.0) * alpha; }`;
 const rgb = (text) => [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16) / 255);
 
 function programOf(gl, vertex, fragment) {
@@ -73,10 +73,12 @@ function painterOn(canvas) {
     gl.uniformMatrix3fv(u.view, false, columnsOf(eye.rows().flat()));
     gl.uniform3fv(u.middle, eye.middle());
     const unit = eye.unit() * dense;
-    gl.uniform2f(u.scale, 2 * unit / wide, 2 * unit / tall);
+    own.scale = [2 * unit / wide, 2 * unit / tall];
+    gl.uniform2f(u.scale, ...own.scale);
     gl.uniform1f(u.deep, 0.9 / own.depth);
     gl.uniform4fv(u.cut, own.cut);
     gl.uniform2f(u.nudge, 0, 0);
+    gl.uniform1f(u.alpha, 1);
     own.size = [wide, tall];
   };
   own.stand = ({ turn, place }) => {
@@ -102,6 +104,18 @@ function painterOn(canvas) {
       gl.drawArrays(strip ? gl.LINE_STRIP : gl.LINES, 0, count);
     }
     gl.uniform2f(u.nudge, 0, 0);
+  };
+  own.use = () => gl.useProgram(program); // again, after another has drawn
+  // What is drawn meanwhile lets through what is behind it.
+  own.clear = (alpha, draw) => {
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthMask(false);
+    gl.uniform1f(u.alpha, alpha);
+    draw();
+    gl.uniform1f(u.alpha, 1);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
   };
   // What is drawn meanwhile is seen through what hides it, and is not cut.
   own.through = (draw) => {

@@ -1,3 +1,5 @@
+{% include "elements.js" %}
+
 {% include "keeping.js" %}
 
 {% include "forms.js" %}
