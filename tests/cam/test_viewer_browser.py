@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from by_night import by_night
 from test_accessibility_browser import judged
-from test_live_browser import CHROMIUM, sync_api
+from test_live_browser import CHROMIUM, sync_api, until
 from test_viewer import bought, plate
 
 from mechwright.contracts.motion import Channel, Motion, Poses, Trace
@@ -60,7 +60,7 @@ def page(software, file):
     found.on("pageerror", lambda error: said.append(str(error)))
     found.on("request", lambda request: asked.append(request.url))
     found.goto(file.as_uri())
-    found.wait_for_function(f"{SPACE}.drawn > 0")
+    until(found, f"{SPACE}.drawn > 0")
     yield found
     assert said == []
     assert asked == [file.as_uri()]
@@ -93,13 +93,13 @@ def test_what_is_clicked_is_named_hidden_and_shown_again(page):
     card = page.locator(".card")
     assert card.locator("strong").inner_text() == "arm"
     card.get_by_role("button", name="hide", exact=True).click()
-    page.wait_for_function(f"{SPACE}.things[1].on === false")
+    until(page, f"{SPACE}.things[1].on === false")
     page.get_by_role("group", name="Standard views").get_by_role("button", name="top").click()
     page.wait_for_timeout(300)
     page.mouse.click(*at(page, (-15, 5, -2)))
     assert card.locator("strong").inner_text() == "base"
     card.get_by_role("button", name="show all").click()
-    page.wait_for_function(f"{SPACE}.things.every((one) => one.on)")
+    until(page, f"{SPACE}.things.every((one) => one.on)")
 
 
 def test_fasteners_are_off_at_first_and_groups_are_switched_together(page):
@@ -116,7 +116,7 @@ def test_a_distance_is_measured_from_corner_to_corner(page):
     page.mouse.click(*at(page, (-19.7, -10, 0.3)))
     text = page.locator(".tools .note").inner_text()
     assert text.startswith("40.79 mm from arm to arm"), text
-    page.wait_for_function("document.querySelector('.tag').textContent === '40.79 mm'")
+    until(page, "document.querySelector('.tag').textContent === '40.79 mm'")
     page.get_by_role("button", name="clear").click()
     assert page.locator(".tag").count() == 0
 
@@ -155,7 +155,7 @@ def test_all_of_it_works_by_keyboard(page):
     page.keyboard.press("Enter")
     assert page.locator(".card strong").inner_text() == "arm"
     page.keyboard.press("h")
-    page.wait_for_function(f"{SPACE}.things[1].on === false")
+    until(page, f"{SPACE}.things[1].on === false")
     page.locator("#input").focus()
     page.keyboard.press("PageUp")
     assert page.evaluate(f"{SPACE}.time()") == 36
@@ -200,7 +200,7 @@ def test_forty_thousand_triangles_move_ten_times_a_second_without_a_graphics_pro
     path.write_text(machine(copies=310, wide=40.0)[0], encoding="utf-8")
     page = software.new_page(viewport={"width": 1280, "height": 900})
     page.goto(path.as_uri())
-    page.wait_for_function(f"{SPACE}.drawn > 0")
+    until(page, f"{SPACE}.drawn > 0")
     page.get_by_label("All of fasteners").check()
     count = page.evaluate(
         f"{SPACE}.things.filter((one) => one.on).reduce((sum, one) => sum + one.form.triangles.length / 3, 0)"

@@ -20,11 +20,14 @@ function barIn(place, run, marks, seek) {
   slide.addEventListener("input", () => seek(Number(slide.value)));
   slide.addEventListener("keydown", (event) => {
     // An arrow is a step of the program, a page a fiftieth of it.
-    const step = run.stepAt(Number(slide.value)), to = { ArrowRight: step + 1, ArrowUp: step + 1, ArrowLeft: step - 2, ArrowDown: step - 2 }[event.key];
+    const now = Number(slide.value), way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+    let to = run.stepAt(now);
+    while (way > 0 && to < run.count - 1 && run.time[to] <= now) to++;
+    while (way < 0 && to >= 0 && run.time[to] >= now) to--;
     const page = { PageUp: long / 50, PageDown: -long / 50 }[event.key];
-    if (to === undefined && page === undefined) return;
+    if (!way && page === undefined) return;
     event.preventDefault();
-    seek(page !== undefined ? Math.min(long, Math.max(0, Number(slide.value) + page)) : to < 0 ? 0 : run.time[Math.min(run.count - 1, to)]);
+    seek(page !== undefined ? Math.min(long, Math.max(0, now + page)) : to < 0 ? 0 : run.time[to]);
   });
   return (time, words) => { slide.value = time; slide.setAttribute("aria-valuetext", words); };
 }

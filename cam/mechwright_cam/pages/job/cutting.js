@@ -21,7 +21,7 @@ function cuttingOf(run, relief, tools) {
       values[(j + half) * wide + k + half] = away > tool.radius ? Infinity
         : tool.end.length < 2 ? 0 : tool.end[low] + (at_ - low) * (tool.end[low + 1] - tool.end[low]);
     }
-    const disc = { half, wide, values, spacing: 2 * Math.sqrt(2 * tool.radius * cell) };
+    const disc = { half, wide, values, spacing: Math.sqrt(2 * tool.radius * cell) }; // no cusp between two places is wider than a quarter of a cell
     discs.set(number, disc);
     return disc;
   };

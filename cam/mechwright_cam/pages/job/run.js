@@ -14,12 +14,12 @@ function runOf(steps) {
     feed: unpacked(steps.feed, "u4"), engaged: unpacked(steps.engaged, "u1"),
   };
   own.begins = (step) => (step > 0 ? own.time[step - 1] : 0);
-  // The step that runs at a time: the first that ends after it.
+  // The step that runs at a time: the first that ends then or later.
   own.stepAt = (time) => {
     let low = 0, high = n - 1;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (own.time[middle] > time) high = middle; else low = middle + 1;
+      if (own.time[middle] >= time) high = middle; else low = middle + 1;
     }
     return low;
   };
