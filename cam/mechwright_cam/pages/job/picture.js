@@ -1,5 +1,5 @@
 // The picture of the job: stock, tool, path, what holds the part, the finished part, and a mark that is looked at.
-const MOVING = 70000, RESTING = 500000, REACH = 8; // triangles of the stock while it changes, and at rest; pixels to a path
+const MOVING = 40000, RESTING = 500000, LAST = 3000, REACH = 8; // triangles of the stock while it changes, and at rest; steps of the path meanwhile; pixels to it
 
 function jobPicture(place, run, cutting, options) {
   const canvas = element("canvas", { tabindex: "0", role: "img", "aria-label": "The program played on its stock. Arrow keys turn the view, "
@@ -32,7 +32,8 @@ function jobPicture(place, run, cutting, options) {
     }
     if (options.path !== "none") {
       const [, first] = run.operations[run.operationAt(step)] || [0, 0];
-      route.draw(eye, painter, options.path === "operation" ? first : 0, options.path === "all" ? run.count : step + 1);
+      const rests = still && painter.finer === FINEST, to = options.path === "all" && rests ? run.count : step + 1;
+      route.draw(eye, painter, Math.max(options.path === "operation" ? first : 0, rests ? 0 : step - LAST), to);
     }
     painter.stand({ turn, place: at_ });
     if (options.tool) for (const one of tools.get(tool) || []) {

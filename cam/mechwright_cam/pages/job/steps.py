@@ -70,7 +70,8 @@ def line_numbers(scene: Scene) -> NDArray[np.int64]:
     if not run.files:
         return run.line - 1
     counts = np.cumsum([0, *(len(text.splitlines()) for text in texts(scene)[:-1])])
-    return run.line - 1 + counts[run.file]
+    numbers: NDArray[np.int64] = run.line - 1 + counts[run.file]
+    return numbers
 
 
 def texts(scene: Scene) -> list[str]:
