@@ -3,7 +3,7 @@ const asking = data.live ? {} : asked();
 kept = { ...kept, ...Object.fromEntries(Object.entries(asking).filter(([key, value]) => key !== "at" && value !== undefined)) };
 {% include "clock.js" %}
 
-let viewed = () => kept.view; // of a picture in space
+let viewed = () => kept.view, which_ = kept.which; // of a picture in space; the picture that is shown
 const place = document.getElementById("picture");
 const pictured = Object.keys(data.poses).length || data.targets;
 const draw = pictured ? pictures(place) : () => {};
@@ -22,9 +22,11 @@ function pictures(place) {
   const choose = (chosen) => made.forEach((one) => {
     one.where.hidden = one !== chosen;
     one.button.setAttribute("aria-pressed", String(one === chosen));
+    if (one === chosen) which_ = one.button.textContent;
   });
-  // Without WebGL 2 the plan is what there is to see.
-  choose(made.find((one) => one.where.querySelector("canvas, svg")));
+  // Without WebGL 2 the plan is what there is to see; places are dragged in it.
+  const seen = made.filter((one) => one.where.querySelector("canvas, svg"));
+  choose(seen.find((one) => one.button.textContent === (kept.which || (data.targets ? "plan" : ""))) || seen[0]);
   for (const one of made) one.button.addEventListener("click", () => { choose(one); show(); });
   // What is hidden is drawn as well while nothing runs, so that it can be kept as a file.
   return (time) => { for (const one of made) if (!one.where.hidden || !runs() && one.where.querySelector("svg")) one.paint(time); };
@@ -39,7 +41,8 @@ if (!shown.size) legend.remove();
 if (data.bare && !data.ghost || data.missing.length) {
   const note = document.getElementById("note");
   note.hidden = false;
-  if (data.bare) note.textContent = "Joints and links as points and lines: there are no parts to draw.";
+  if (data.making) note.textContent = "The parts are being made. Meanwhile joints and links are shown as points and lines.";
+  else if (data.bare) note.textContent = "Joints and links as points and lines: there are no parts to draw.";
   else note.textContent = `Not drawn, because they take the CAD kernel: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
 }
 if (kept.ticked && (!kept.plotted || kept.plotted.some((name) => names.includes(name)))) names.filter((name) => kept.ticked.includes(name)).forEach((name) => ticked.add(name));
@@ -59,6 +62,6 @@ if (kept.plays) play(true);
 if (kept.pace) pace.value = kept.pace;
 // What another player goes on from.
 return () => ({
-  at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(),
+  at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(), which: which_,
   off: legendOf.hidden(), seen: [...shown.keys()], plotted: names,
 });
