@@ -198,6 +198,7 @@ def test_a_build_is_complete_and_the_same_every_time(
             "tool.tbl",
             "proof.json",
             "gear.setup.html",
+            "gear.job.html",
             "setup.html",
             "manifest.json",
         ]

@@ -68,11 +68,17 @@ class Work:
                 )
         return {name: content for name, content in made.files.items() if isinstance(content, bytes)}
 
+    def _pose(self, samples: int) -> "tuple[Motion, int]":
+        """The motion with so many samples at least, and the one of the assembly."""
+        if self.motion.samples >= samples or self.sample > 0 or not self.design.family.moves:
+            return self.motion, self.sample
+        return self.design.solve(samples), 0
+
     def _assembly(self, exporter: Exporter) -> bytes | None:
         if not any(part.instances for part in self.parts):
             return None
         try:
-            return exporter.assembly(self.design.name, self.parts, self.motion, self.sample)
+            return exporter.assembly(self.design.name, self.parts, *self._pose(exporter.samples))
         except MechwrightError as error:
             family = self.design.family.name
             raise GeometryError(

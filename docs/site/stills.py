@@ -8,6 +8,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.output import svg
+from mechwright_cad.viewer.packed import corners, indices
 
 INSTANT = 1 / 12
 """Part of the period at which it stands: the start has links in line or hidden behind each other."""
@@ -70,10 +71,10 @@ def _space(scene: Mapping[str, Any]) -> str:
             "columns"
         ]
         px, py, pz, w, a, b, c = (float(column[_at(column)]) for column in columns)
-        points = np.array(mesh["points"], dtype=float).reshape(-1, 3) @ _turn(w, a, b, c).T + (px, py, pz)
-        faces += _faces(
-            (points - scene["ball"]["centre"]) @ basis.T, np.array(mesh["triangles"]), mesh["colour"]
-        )
+        form = scene["forms"][mesh["form"]]
+        own = corners(form) + np.array((0.0, 0.0, mesh.get("z", 0.0)))
+        points = own @ _turn(w, a, b, c).T + (px, py, pz)
+        faces += _faces((points - scene["ball"]["centre"]) @ basis.T, indices(form), mesh["colour"])
     radius = scene["ball"]["radius"]
     paths = []
     for trace in scene["traces"].values():
@@ -93,12 +94,12 @@ def _space(scene: Mapping[str, Any]) -> str:
 
 def _faces(points: Array, triangles: Array, colour: str) -> list[tuple[float, str]]:
     """Depth and drawing of each triangle that faces the eye."""
-    corners = points[triangles.astype(int).reshape(-1, 3)]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    three = points[triangles]
+    normal = np.cross(three[:, 1] - three[:, 0], three[:, 2] - three[:, 0])
     size = np.linalg.norm(normal, axis=1)
     found = []
     rgb = np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)])
-    for triangle, unit in zip(corners[size > 0], normal[size > 0] / size[size > 0, None], strict=True):
+    for triangle, unit in zip(three[size > 0], normal[size > 0] / size[size > 0, None], strict=True):
         if unit[2] <= 0:
             continue
         shade = SHADES + (1 - SHADES) * max(float(unit @ LIGHT), 0.0)

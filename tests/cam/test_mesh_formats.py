@@ -2,15 +2,20 @@
 
 import io
 import json
+import os
 import subprocess
 import sys
 import zipfile
+from dataclasses import replace
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from plate_shapes import PLATES, Part, turning, volume_of, wavy_part
+from scipy.spatial.transform import Rotation
 
+from mechwright.contracts.motion import Poses
 from mechwright_cad.exporters import GlbExporter, StlExporter, ThreeMfExporter, mesh
 from mechwright_cad.solids import tessellate
 from mechwright_cad.solids.solid import part_solid
@@ -120,7 +125,9 @@ def test_glb_assembly_stands_in_its_poses(part):
     assert [node["name"] for node in document["nodes"]] == ["driver", "driven"]
     assert len(document["meshes"]) == 1
     for node, z in zip(document["nodes"], (0.0, 1.5), strict=True):
-        matrix = np.array(node["matrix"]).reshape(4, 4).T
+        matrix = np.eye(4)
+        matrix[:3, :3] = Rotation.from_quat(node["rotation"]).as_matrix()
+        matrix[:3, 3] = node["translation"]
         x, y, up = 10.0, 2.0, 3.0
         moved = matrix @ [x / 1000, up / 1000, -y / 1000, 1.0]
         wanted = motion.poses[node["name"]].transform([[x, y, up + z]])[4, 0] / 1000
@@ -128,6 +135,73 @@ def test_glb_assembly_stands_in_its_poses(part):
     assert GlbExporter().assembly("pair", [part], motion, 4) == GlbExporter().assembly(
         "pair", [part], motion, 4
     )
+
+
+def test_glb_assembly_moves_as_the_motion_does(part):
+    motion = turning()
+    document, body = glb_document(GlbExporter().assembly("pair", [part], motion, 0))
+    (animation,) = document["animations"]
+    assert animation["name"] == motion.input_name
+
+    def values(accessor, width):
+        row = document["accessors"][accessor]
+        view = document["bufferViews"][row["bufferView"]]
+        assert "target" not in view
+        return np.frombuffer(body, "<f4", row["count"] * width, view["byteOffset"]).reshape(-1, width)
+
+    ways = {(one["target"]["node"], one["target"]["path"]): one["sampler"] for one in animation["channels"]}
+    times = values(animation["samplers"][0]["input"], 1).ravel()
+    assert times[0] == 0
+    assert (np.diff(times) > 0).all()
+    row = document["accessors"][animation["samplers"][0]["input"]]
+    assert (row["min"], row["max"]) == ([times[0]], [times[-1]])
+    y_up = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+    for number, (node, z) in enumerate(zip(document["nodes"], (0.0, 1.5), strict=True)):
+        assert "matrix" not in node
+        if (number, "rotation") not in ways:
+            continue
+        places = values(animation["samplers"][ways[number, "translation"]]["output"], 3)
+        turns = values(animation["samplers"][ways[number, "rotation"]]["output"], 4)
+        assert np.linalg.norm(turns, axis=1) == pytest.approx(1, abs=1e-6)
+        assert (np.einsum("ij,ij->i", turns[1:], turns[:-1]) > 0).all(), "no jump of sign"
+        wanted = motion.poses[node["name"]].transform([[10.0, 2.0, 3.0 + z]])[:, 0] / 1000
+        keys = np.rint(np.linspace(0, motion.samples - 1, len(times))).astype(int)
+        moved = Rotation.from_quat(turns).apply(y_up @ (0.010, 0.002, 0.003)) + places
+        np.testing.assert_allclose(moved, wanted[keys] @ y_up.T, atol=1e-6)
+    assert ways
+
+
+def test_a_motion_of_two_samples_and_what_stands_are_not_animated(part):
+    motion = turning()
+    ends = replace(
+        motion,
+        channels={name: replace(one, values=one.values[[0, -1]]) for name, one in motion.channels.items()},
+        poses={
+            name: Poses(one.position[[0, -1]], one.rotation[[0, -1]]) for name, one in motion.poses.items()
+        },
+    )
+    document, _ = glb_document(GlbExporter().assembly("pair", [part], ends, 0))
+    assert "animations" not in document
+    assert all("matrix" in node for node in document["nodes"])
+
+
+VALIDATOR = Path(os.environ.get("MECHWRIGHT_GLTF_VALIDATOR", "gltf-validator"))
+
+
+@pytest.mark.skipif(not (VALIDATOR / "package.json").is_file(), reason="no gltf-validator of npm here")
+def test_glb_passes_the_validator_of_its_format(part, tmp_path):
+    for name, data in {
+        "part": GlbExporter().part(part),
+        "pair": GlbExporter().assembly("pair", [part], turning(), 4),
+    }.items():
+        (tmp_path / f"{name}.glb").write_bytes(data)
+        code = (
+            f"require({str(VALIDATOR.resolve())!r}).validateBytes(new Uint8Array(require('fs').readFileSync("
+            f"{str(tmp_path / name)!r} + '.glb'))).then((found) => console.log(JSON.stringify(found.issues)))"
+        )
+        done = subprocess.run(["node", "-e", code], capture_output=True, text=True, check=True)
+        found = json.loads(done.stdout)
+        assert (found["numErrors"], found["numWarnings"]) == (0, 0), found["messages"]
 
 
 def test_listing_the_formats_imports_nothing_heavy():

@@ -204,7 +204,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
 
     for module in ("as_made", "pages.seen", "machining"):  # the first two have names of their own
         monkeypatch.setattr(f"mechwright_cam.{module}.Machining", lambda build: Programs())
-    for page in ("DrawingFiles", "ProgramFiles", "ProofFile", "SetupSheets"):
+    for page in ("DrawingFiles", "ProgramFiles", "ProofFile", "SetupSheets", "JobPages"):
         monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.files", nothing)
         monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.names", lambda self, build, wanted: [])
     monkeypatch.setattr(Solids, "warm", lambda self: None)

@@ -14,14 +14,3 @@ function at(column, time) {
   const a = column[first], b = column[first + 1];
   return a === null || b === null ? NaN : a + (time - first) * (b - a);
 }
-function element(name, attributes, parent) {
-  const svg = ["svg", "g", "path", "polyline", "circle", "line", "rect", "text"].includes(name);
-  const made = svg ? document.createElementNS("http://www.w3.org/2000/svg", name) : document.createElement(name);
-  for (const [key, value] of Object.entries(attributes || {})) {
-    if (key === "text") made.textContent = value; else made.setAttribute(key, value);
-  }
-  if (parent) parent.append(made);
-  return made;
-}
-// What can be hidden: name to a function that shows it or not; and how each name is marked.
-const shown = new Map();

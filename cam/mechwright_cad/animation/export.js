@@ -2,11 +2,8 @@
 const FRAMES = 60, ACROSS = 640, STYLED = ["fill", "fill-rule", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "stroke-linecap", "vector-effect", "display"];
 const LEVELS = [6, 7, 6]; // of red, green and blue: 252 colours
 
-function save(blob, ending) {
-  const link = element("a", { href: URL.createObjectURL(blob), download: `${document.title.split(":")[0].replace(/[^\w-]+/g, "-")}.${ending}` });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
+// The picture that is shown: an SVG, or a canvas.
+const pictureNow = () => [...document.getElementById("picture").querySelectorAll("svg, canvas")].find((one) => one.getClientRects().length);
 // The text of the SVG, with what the style sheet says written out.
 function standing(svg) {
   const copy = svg.cloneNode(true), own = [svg, ...svg.querySelectorAll("*")], its = [copy, ...copy.querySelectorAll("*")];
@@ -23,17 +20,17 @@ function standing(svg) {
 }
 // Draws the picture as it stands now into a canvas.
 async function drawn(canvas) {
-  const place = document.getElementById("picture"), pen = canvas.getContext("2d", { willReadFrequently: true }), svg = place.querySelector("svg");
-  pen.fillStyle = getComputedStyle(place).backgroundColor;
+  const picture = pictureNow(), pen = canvas.getContext("2d", { willReadFrequently: true });
+  pen.fillStyle = getComputedStyle(document.getElementById("picture")).backgroundColor;
   pen.fillRect(0, 0, canvas.width, canvas.height);
-  if (!svg) return pen.drawImage(place.querySelector("canvas"), 0, 0, canvas.width, canvas.height);
+  if (picture.tagName === "CANVAS") return pen.drawImage(picture, 0, 0, canvas.width, canvas.height);
   const image = new Image();
-  image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(standing(svg));
+  image.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(standing(picture));
   await image.decode();
   pen.drawImage(image, 0, 0, canvas.width, canvas.height);
 }
 function sheet() {
-  const box = document.getElementById("picture").firstElementChild, of = box.tagName === "CANVAS" ? [box.width, box.height] : box.getAttribute("viewBox").split(" ").map(Number).slice(2);
+  const box = pictureNow(), of = box.tagName === "CANVAS" ? [box.width, box.height] : box.getAttribute("viewBox").split(" ").map(Number).slice(2);
   const canvas = document.createElement("canvas");
   canvas.width = ACROSS;
   canvas.height = 2 * Math.round(ACROSS * of[1] / of[0] / 2);
@@ -85,7 +82,7 @@ async function gif(seek, tell) {
     tell(`GIF: ${k + 1} of ${FRAMES} pictures`);
   }
   parts.push(new Uint8Array([0x3b]));
-  save(new Blob(parts, { type: "image/gif" }), "gif");
+  keep(new Blob(parts, { type: "image/gif" }), "gif");
 }
 // The time of the picture at a part of the film: once round, or there and back.
 const frame = (part) => (data.round ? part : 1 - Math.abs(1 - 2 * part)) * last;
@@ -106,7 +103,7 @@ async function film(seek, tell) {
   }
   recorder.stop();
   await ended;
-  save(new Blob(pieces, { type: kind.split(";")[0] }), kind.includes("mp4") ? "mp4" : "webm");
+  keep(new Blob(pieces, { type: kind.split(";")[0] }), kind.includes("mp4") ? "mp4" : "webm");
 }
 // What the address says: where the input stands, what is hidden, which channels are plotted.
 function asked() {
@@ -128,7 +125,7 @@ function takeAway(seek, now, state) {
   const button_ = (name) => document.getElementById(name);
   button_("svg").hidden = !svg;
   for (const name of ["gif", "film"]) button_(name).hidden = !document.getElementById("picture");
-  button_("svg").addEventListener("click", () => save(new Blob([standing(svg)], { type: "image/svg+xml" }), "svg"));
+  button_("svg").addEventListener("click", () => keep(new Blob([standing(svg)], { type: "image/svg+xml" }), "svg"));
   button_("gif").addEventListener("click", guarded(gif));
   button_("film").addEventListener("click", guarded(film));
   button_("link").hidden = Boolean(data.live);

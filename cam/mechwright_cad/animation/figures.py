@@ -87,8 +87,8 @@ def _to_digits(values: Array) -> Array:
 def poses_of(poses: Poses, *, plane: bool) -> dict[str, Any]:
     """A body's poses: columns of numbers, of one number where it does not change.
 
-    In the plane these are x, y and the angle, rad, and whether the body lies face down; in space the position
-    and a unit quaternion, scalar first, without jumps of sign.
+    In the plane these are x, y and the angle, rad, whether the body lies face down, and its height; in space
+    the position and a unit quaternion, scalar first, without jumps of sign.
     """
     if plane:
         angle = np.unwrap(np.arctan2(poses.rotation[:, 1, 0], poses.rotation[:, 0, 0]))
@@ -107,6 +107,8 @@ def poses_of(poses: Poses, *, plane: bool) -> dict[str, Any]:
     }
     if plane and poses.rotation[0, 2, 2] < 0:
         found["down"] = True
+    if plane and abs(height := round(float(poses.position[0, 2]), MICRON)) > 0:
+        found["z"] = height
     return found
 
 

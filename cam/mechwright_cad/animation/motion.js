@@ -6,7 +6,7 @@ function player(data, kept, signal) {
 
 {% include "overlays.js" %}
 
-{% include "space.js" %}
+{% include "scripts.js" %}
 
 {% include "plots.js" %}
 

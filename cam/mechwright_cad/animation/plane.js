@@ -12,13 +12,13 @@ function planePicture(place) {
     const drawn = element("path", layer.bones
       ? { class: "bone", d: layer.path, stroke: layer.colour } : { class: layer.clear ? "part clear" : "part", d: layer.path, fill: layer.colour }, turned);
     element("title", { text: layer.name }, drawn);
-    const show = shown.get(layer.name) || { colour: layer.colour, parts: [] };
+    const show = shown.get(layer.name) || { colour: layer.colour, parts: [], group: layer.group, off: layer.off };
     show.parts.push((on) => { drawn.style.display = on ? "" : "none"; });
     shown.set(layer.name, show);
     return [drawn, data.poses[layer.body]];
   });
   const dots = Object.entries(data.traces).map(([name, path]) => {
-    const line = element("polyline", { points: path.map((point) => point.join()).join(" ") }, turned);
+    const line = element("polyline", { points: path.map(([px, py]) => `${px},${py}`).join(" ") }, turned);
     const dot = element("circle", { class: "point", r: Math.max(width, height) / 130 }, turned);
     shown.set("path of " + name, { parts: [(on) => { line.style.display = dot.style.display = on ? "" : "none"; }] });
     return [dot, path.map((point) => point[0]), path.map((point) => point[1])];

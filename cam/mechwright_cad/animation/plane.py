@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 import shapely
 
+from mechwright.contracts.part import Part
 from mechwright_cad.animation.figures import DRAWN, hexadecimal
 from mechwright_cad.bodies import Body, label_of
 from mechwright_cad.interference.slabs import Slab, slabs_of
+from mechwright_cad.viewer.forms import form_of, is_light
 
 LINE_CHORD = 0.02
 """Chord error of what is drawn, mm: a tenth of a line's width on the screen."""
@@ -66,18 +68,18 @@ def see_through(
 def _slabs(body: Body, solids: bool) -> Sequence[Slab]:
     if body.is_plate:
         return slabs_of(body.part, body.instance)
-    if not solids:
-        return ()
-    from mechwright_cad.interference.prisms import prisms_of
+    if solids:
+        from mechwright_cad.interference.prisms import prisms_of
 
-    return prisms_of(body.part, body.instance) or _shadow(body)
+        return prisms_of(body.part, body.instance) or _shadow(body.part, body.instance.z)
+    return _shadow(body.part, body.instance.z) if is_light(body.part) else ()
 
 
-def _shadow(body: Body) -> list[Slab]:
+@lru_cache(maxsize=KEPT)
+def _shadow(part: Part, height: float) -> list[Slab]:
     """The outline of a solid that is no prism, as high as it is."""
-    from mechwright_cad.animation.space import mesh_of_body
-
-    points, triangles = mesh_of_body(body)
+    points, triangles = form_of(part)
+    points = points + np.array((0.0, 0.0, height))
     corners = points[triangles][:, :, :2]
     flat = shapely.polygons(corners)
     shape = shapely.union_all(flat[shapely.area(flat) > 0], grid_size=10.0**-DRAWN / 2)

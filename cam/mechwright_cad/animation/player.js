@@ -1,85 +1,49 @@
-// The input: a slider, a button that lets it run, and a mark in the address (#at=40) where it starts.
-const [unitOfInput, factorOfInput] = degrees(input.unit);
-const slider = document.getElementById("input"), button = document.getElementById("play");
-const pace = document.getElementById("pace"), said = document.getElementById("now");
+// The page of a motion: its pictures, what can be hidden, and plots that go with the input.
 const asking = data.live ? {} : asked();
 kept = { ...kept, ...Object.fromEntries(Object.entries(asking).filter(([key, value]) => key !== "at" && value !== undefined)) };
-let time = Math.min(1, kept.at || 0) * last, forwards = 1, before = null;
+{% include "clock.js" %}
 
-let viewed = () => kept.view; // of a picture in space
+let viewed = () => kept.view, which_ = kept.which; // of a picture in space; the picture that is shown
 const place = document.getElementById("picture");
 const pictured = Object.keys(data.poses).length || data.targets;
-const draw = pictured ? (data.layers ? planePicture : spacePicture)(place) : () => {};
+const draw = pictured ? pictures(place) : () => {};
 if (!pictured) place.remove();
 
-function show() {
-  const value = (at(input.values, time) * factorOfInput).toFixed(unitOfInput === "°" ? 1 : 3);
-  const words = `${told(data.input)} = ${value}${unitOfInput === "°" ? "°" : " " + unitOfInput}`;
-  said.textContent = words;
-  slider.value = time;
-  slider.setAttribute("aria-valuetext", words);
+// The picture in space, the plan, or both with a button for each.
+function pictures(place) {
+  const found = [["in space", data.meshes && spacePicture], ["plan", data.layers && planePicture]].filter(([, make]) => make);
+  if (found.length < 2) return found[0][1](place);
+  const which = element("div", { id: "which", role: "group", "aria-label": "Picture" });
+  place.before(which);
+  const made = found.map(([name, make]) => {
+    const where = element("div", {}, place), paint = make(where);
+    return { where, paint, button: element("button", { type: "button", text: name }, which) };
+  });
+  const choose = (chosen) => made.forEach((one) => {
+    one.where.hidden = one !== chosen;
+    one.button.setAttribute("aria-pressed", String(one === chosen));
+    if (one === chosen) which_ = one.button.textContent;
+  });
+  // Without WebGL 2 the plan is what there is to see; places are dragged in it.
+  const seen = made.filter((one) => one.where.querySelector("canvas, svg"));
+  choose(seen.find((one) => one.button.textContent === (kept.which || (data.targets ? "plan" : ""))) || seen[0]);
+  for (const one of made) one.button.addEventListener("click", () => { choose(one); show(); });
+  // What is hidden is drawn as well while nothing runs, so that it can be kept as a file.
+  return (time) => { for (const one of made) if (!one.where.hidden || !runs() && one.where.querySelector("svg")) one.paint(time); };
+}
+function drawNow(time) {
   draw(time);
   for (const cursor of cursors) cursor(time);
   for (const cell of cells.values()) cell(time);
 }
-function seek(wanted) {
-  time = wanted;
-  show();
-}
-function run(clock) {
-  if (before === null || signal.aborted) return;
-  let next = time + forwards * (clock - before) / 1000 / Number(pace.value) * last;
-  before = clock;
-  if (data.round) next = (next % last + last) % last;
-  else if (next > last || next < 0) {
-    forwards = -forwards;
-    next = Math.min(last, Math.max(0, next > last ? 2 * last - next : -next));
-  }
-  seek(next);
-  requestAnimationFrame(run);
-}
-function play(on) {
-  button.textContent = on ? "Pause" : "Play";
-  button.setAttribute("aria-pressed", String(on));
-  before = on ? performance.now() : null;
-  if (on) requestAnimationFrame(run);
-}
-document.getElementById("way").textContent = data.over !== data.input ? "there and back" : data.round ? "once round" : "one way";
-slider.max = last;
-slider.setAttribute("aria-label", `Input: ${told(data.input)}`);
-slider.addEventListener("input", () => seek(Number(slider.value)));
-slider.addEventListener("keydown", (event) => {
-  // A step of the slider is a sample, a page a tenth of the motion.
-  const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: last / 10, PageDown: -last / 10 };
-  if (!(event.key in steps)) return;
-  event.preventDefault();
-  seek(Math.min(last, Math.max(0, time + steps[event.key])));
-});
-button.addEventListener("click", () => play(before === null));
-document.addEventListener("keydown", (event) => {
-  if (event.key !== " " || event.target !== document.body) return;
-  event.preventDefault();
-  play(before === null);
-}, { signal });
-const legend = document.getElementById("legend");
-for (const [name, show_] of shown) {
-  const label = element("label", {}, legend), box = element("input", { type: "checkbox" }, label);
-  // What was not there before is as it is at first.
-  box.checked = kept.off && (!kept.seen || kept.seen.includes(name)) ? !kept.off.includes(name) : !show_.off;
-  const obey = () => show_.parts.forEach((part) => part(box.checked));
-  box.addEventListener("change", obey);
-  if (!box.checked) obey();
-  const swatch = element("span", { class: "swatch" }, label);
-  swatch.style.background = show_.colour || "var(--accent)";
-  label.append(name);
-}
+const legend = document.getElementById("legend"), legendOf = legendIn(legend, shown, kept);
 if (!shown.size) legend.remove();
 if (data.bare && !data.ghost || data.missing.length) {
   const note = document.getElementById("note");
   note.hidden = false;
-  if (data.bare) note.textContent = "Joints and links as points and lines: there are no parts to draw.";
-  else
-  note.textContent = `Not drawn, because they are no plates: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
+  if (data.making) note.textContent = "The parts are being made. Meanwhile joints and links are shown as points and lines.";
+  else if (data.bare) note.textContent = "Joints and links as points and lines: there are no parts to draw.";
+  else note.textContent = `Not drawn, because they take the CAD kernel: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
 }
 if (kept.ticked && (!kept.plotted || kept.plotted.some((name) => names.includes(name)))) names.filter((name) => kept.ticked.includes(name)).forEach((name) => ticked.add(name));
 else firstChoice();
@@ -92,13 +56,12 @@ if (asking.at !== undefined) {
   time = after > 0 ? after - 1 + off[after - 1] / (off[after - 1] - off[after] || 1)
     : off.reduce((best, one, k) => Math.abs(one) < Math.abs(off[best]) ? k : best, 0);
 }
-const hiddenNow = () => [...legend.querySelectorAll("input")].filter((box) => !box.checked).map((box) => box.parentElement.textContent);
-takeAway(seek, () => time, () => address(at(input.values, time) * factorOfInput, hiddenNow(), [...ticked]));
+takeAway(seek, () => time, () => address(at(input.values, time) * factorOfInput, legendOf.hidden(), [...ticked]));
 show();
 if (kept.plays) play(true);
 if (kept.pace) pace.value = kept.pace;
 // What another player goes on from.
 return () => ({
-  at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(),
-  off: hiddenNow(), seen: [...shown.keys()], plotted: names,
+  at: last ? time / last : 0, plays: before !== null, pace: pace.value, ticked: [...ticked], view: viewed(), which: which_,
+  off: legendOf.hidden(), seen: [...shown.keys()], plotted: names,
 });

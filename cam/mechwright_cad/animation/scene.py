@@ -12,6 +12,8 @@ from mechwright.contracts.part import Part
 from mechwright_cad.animation.figures import MICRON, poses_of, rounded, significant
 from mechwright_cad.bodies import bodies_of, label_of
 from mechwright_cad.interference.path import flat
+from mechwright_cad.viewer.forms import is_light
+from mechwright_cad.viewer.groups import groups_of
 
 PAGE_SAMPLES = 361
 """Samples of the motion that the page holds: every degree of a turn, and straight on between two of them."""
@@ -20,23 +22,29 @@ CLOSED = 1e-6
 """What an end may differ from the beginning, mm, parts of 1 and turns, of a motion that goes round."""
 
 
-def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, Any]:
+def scene(
+    parts: Sequence[Part], motion: Motion, *, solids: bool, space: bool = False, plan: bool = True
+) -> dict[str, Any]:
     """The content of the page, of parts with their instances and of a motion with any number of samples.
 
-    With ``solids`` parts that are no plates are drawn, which takes the CAD kernel; else the page names them.
+    With ``solids`` all parts are drawn, which takes the CAD kernel; else the page names what is missing.
+    With ``space`` a mechanism in the plane that has other parts than plates is shown in space as well;
+    without a ``plan`` any mechanism is shown in space alone.
     Without parts the skeleton is shown, as far as the motion says how its bodies are joined.
     Raises GeometryError as :func:`bodies_of` does, or where a part cannot be made.
     """
     bodies = bodies_of(parts, motion)
     plane = all(flat(one.rotation, one.position) is not None for one in motion.poses.values())
     paths = {name: motion.path(name) for name in motion.traces}
+    machine = plane and space and not (plan and all(body.is_plate for body in bodies))
     bare = not bodies and bool(motion.joints)
     # Where no bodies are known, joints and the points whose paths are drawn still move.
     used = {body.instance.body for body in bodies} or (
         set(motion.poses) if bare else {trace.body for trace in motion.traces.values()}
     )
     labels = motion.labels
-    unmade = [] if solids else [label_of(body) for body in bodies if not body.is_plate]
+    flat_paths = plane and not machine
+    unmade = [] if solids else [label_of(body) for body in bodies if not is_light(body.part)]
     found: dict[str, Any] = {
         "input": motion.input_name,
         "over": motion.over,
@@ -46,28 +54,35 @@ def scene(parts: Sequence[Part], motion: Motion, *, solids: bool) -> dict[str, A
             for name, channel in motion.channels.items()
         },
         "poses": {name: poses_of(poses, plane=plane) for name, poses in motion.poses.items() if name in used},
-        "traces": {name: rounded(path[:, : 2 if plane else 3], MICRON) for name, path in paths.items()},
+        "traces": {name: rounded(path[:, : 2 if flat_paths else 3], MICRON) for name, path in paths.items()},
         "missing": list(dict.fromkeys(unmade)),
     }
-    if plane:
+    if plane and plan:
         from mechwright_cad.animation.instants import arrows, instants, lines
 
         found["instants"], found["arrows"] = instants(motion), arrows(motion)
         found["lines"] = [] if bare else [one for one in lines(motion) if one["body"] in found["poses"]]
     if bare:
         found |= _skeleton(motion, plane=plane)
-    elif plane:
+    elif plane and plan:
         from mechwright_cad.animation.plane import layers_of, see_through, window
+        from mechwright_cad.animation.space import grouping
 
-        layers = [layer for body in bodies for layer in layers_of(body, solids=solids)]
+        groups = groups_of(bodies, motion) if machine else [""] * len(bodies)
+        layers = [
+            layer | grouping(group)
+            for body, group in zip(bodies, groups, strict=True)
+            for layer in layers_of(body, solids=solids)
+        ]
         plates = {label_of(body) for body in bodies if body.is_plate}
         found["layers"] = see_through(sorted(layers, key=lambda layer: layer["top"]), found["poses"], plates)
         found["window"] = window(bodies, solids=solids, paths=list(paths.values()))
-    else:
-        from mechwright_cad.animation.space import meshes_of, upwards
+    if not bare and (machine or not plane):
+        from mechwright_cad.animation.space import bodies_in_space
 
-        found["meshes"], found["ball"] = meshes_of(bodies, solids=solids, paths=list(paths.values()))
-        found["up"] = upwards(bodies, found["ball"]["centre"])
+        found |= bodies_in_space(bodies, motion, solids=solids, paths=list(paths.values()))
+        if plane:
+            found["up"] = [0, 0, 1]
     return found
 
 

@@ -1,55 +1,66 @@
-"""A mechanism whose bodies turn in space: their surfaces as triangles."""
+"""A mechanism in space: the forms of its parts, the bodies that have them, and the room that they take."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.contracts.motion import Motion
 from mechwright_cad.animation.figures import ANGLE, DRAWN, hexadecimal, rounded
 from mechwright_cad.bodies import Body, label_of
 from mechwright_cad.interference.path import STILL
-from mechwright_cad.interference.slabs import slabs_of, triangles_of
-
-SURFACE_CHORD = 0.15
-"""Distance of triangles from the surface, mm: less than a line's width on the screen, some hundred triangles
-for a link."""
+from mechwright_cad.viewer.forms import forms_of, is_light
+from mechwright_cad.viewer.groups import FASTENERS, groups_of
+from mechwright_cad.viewer.packed import form
 
 
-def mesh_of_body(body: Body) -> tuple[Array, NDArray[np.int64]]:
-    """Corners (n, 3), mm, in the frame of the body, and triangles (k, 3)."""
-    if body.is_plate:
-        return triangles_of(slabs_of(body.part, body.instance), SURFACE_CHORD)
-    from mechwright_cad.solids.solid import part_solid
-    from mechwright_cad.solids.tessellate import mesh_of
+def bodies_in_space(
+    bodies: Sequence[Body], motion: Motion, *, solids: bool, paths: Sequence[Array] = (), grouped: bool = True
+) -> dict[str, Any]:
+    """What a picture in space holds of bodies that can be had, and a sphere about all that they come to.
 
-    made = mesh_of(part_solid(body.part), ruled=False, tolerance=SURFACE_CHORD)
-    return made.points + np.array((0.0, 0.0, body.instance.z)), made.triangles
-
-
-def meshes_of(
-    bodies: Sequence[Body], *, solids: bool, paths: Sequence[Array] = ()
-) -> tuple[list[dict[str, Any]], dict[str, Any]]:
-    """The surfaces of bodies that can be had; a sphere about all that they and ``paths`` come to, mm."""
-    found, reach = [], list(paths)
-    for body in bodies:
-        if not (body.is_plate or solids):
-            continue
-        points, triangles = mesh_of_body(body)
+    Without ``solids`` parts are left out whose form takes the CAD kernel. ``paths`` (n, 3), mm, are within
+    the sphere as well. Where bodies are ``grouped``, fasteners are hidden at first.
+    """
+    made = [body for body in bodies if solids or is_light(body.part)]
+    parts = list({id(body.part): body.part for body in made}.values())
+    number = {id(part): place for place, part in enumerate(parts)}
+    meshes = forms_of(parts)
+    groups = dict(zip(map(id, bodies), groups_of(bodies, motion), strict=True))
+    reach = list(paths)
+    for body in made:
+        points, _ = meshes[number[id(body.part)]]
         low, high = points.min(axis=0), points.max(axis=0)
         corners = np.array([[(low, high)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)])
-        reach.append(body.poses.transform(corners).reshape(-1, 3))
-        found.append(
-            {
-                "body": body.instance.body,
-                "name": label_of(body),
-                "colour": hexadecimal(body.part.colour_of(body.instance)),
-                "points": rounded(points.ravel(), DRAWN),
-                "triangles": triangles.ravel().tolist(),
-            }
-        )
-    return found, ball(reach)
+        lifted = corners + np.array((0.0, 0.0, body.instance.z))
+        reach.append(body.poses.transform(lifted).reshape(-1, 3))
+    sphere = ball(reach)
+    return {
+        "forms": [form(*mesh) for mesh in meshes],
+        "meshes": [_mesh(body, number[id(body.part)], groups[id(body)] if grouped else "") for body in made],
+        "ball": sphere,
+        "up": upwards(bodies, sphere["centre"]),
+    }
+
+
+def _mesh(body: Body, number: int, group: str) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "body": body.instance.body,
+        "name": label_of(body),
+        "colour": hexadecimal(body.part.colour_of(body.instance)),
+        "form": number,
+    }
+    if body.instance.z:
+        found["z"] = round(body.instance.z, DRAWN + 1)
+    return found | grouping(group)
+
+
+def grouping(group: str) -> dict[str, Any]:
+    """What a page is told of the group of a body; nothing of none."""
+    if not group:
+        return {}
+    return {"group": group, "off": True} if group == FASTENERS else {"group": group}
 
 
 def upwards(bodies: Sequence[Body], middle: Sequence[float]) -> list[Any]:
@@ -63,7 +74,8 @@ def upwards(bodies: Sequence[Body], middle: Sequence[float]) -> list[Any]:
         return [0, 0, 1]
     _, base = max(plates, key=lambda item: item[0])
     normal = base.poses.rotation[0, :, 2]
-    away = float(normal @ (np.asarray(middle) - base.poses.position[0]))
+    foot = base.poses.position[0] + base.instance.z * normal
+    away = float(normal @ (np.asarray(middle) - foot))
     return rounded(normal if away >= 0 else -normal, ANGLE)
 
 

@@ -51,6 +51,7 @@ class AssemblyGuide(Page):
         if not self.shown(build):
             return {}
         from mechwright_cad.assembly_guide.drawing import assembly_sheet
+        from mechwright_cad.assembly_guide.in_space import assembly_scene
         from mechwright_cad.assembly_guide.pictures import Pictures
         from mechwright_cad.assembly_order.plan import plan_of
         from mechwright_cad.bill.items import items
@@ -58,14 +59,17 @@ class AssemblyGuide(Page):
         from mechwright_cad.sheet.files import files
         from mechwright_cad.sheet.settings import DrawingTable
         from mechwright_cad.sheet.title import TitleBlock
+        from mechwright_cad.solid_models import Solids
 
         plan, name = build.made(plan_of), build.design.name
         numbered = items(build.parts, order_of(build))
         pictures = Pictures(plan, {part.name: number for number, those in numbered.items() for part in those})
         title = TitleBlock(name, build.design.table(DrawingTable))
         sheet = assembly_sheet(pictures, numbered, title)
+        masses = build.made_as_wanted(Solids).masses()
+        shown = assembly_scene(build, plan, pictures.shifts, masses)
         return {
-            HTML: assembly_html(name, plan, numbered, pictures, build.design.stacks),
+            HTML: assembly_html(name, plan, numbered, pictures, shown, build.design.stacks),
             **files(sheet, SHEETS, f"{name}: assembly", title),
         }
 
@@ -75,12 +79,15 @@ def assembly_html(
     plan: "Plan",
     numbered: "Mapping[int, Sequence[Part]]",
     pictures: "Pictures",
+    shown: "Mapping[str, Any]",
     stacks: "Sequence[AxialStack]" = (),
 ) -> str:
-    """The whole page."""
+    """The whole page; ``shown`` is what its viewer shows."""
     from mechwright_cad.assembly_guide.undoing import undone
     from mechwright_cad.assembly_guide.words import Words
     from mechwright_cad.bill.page import HTML as BILL
+    from mechwright_cad.viewer import ANIMATION, VIEWER
+    from mechwright_cad.viewer.script import script_data
 
     words = Words(plan, {part.name: number for number, those in numbered.items() for part in those}, stacks)
     steps: list[dict[str, Any]] = []
@@ -105,7 +112,7 @@ def assembly_html(
         if any(part.instances for part in those)
     ]
     return (
-        templates(Path(__file__).parent)
+        templates(Path(__file__).parent, VIEWER, ANIMATION)
         .get_template("page.html")
         .render(
             design=design,
@@ -118,5 +125,7 @@ def assembly_html(
             drawing=SHEETS[1],
             turned=plan.turned,
             input=plan.motion.input_name,
+            moves=any(len(column) > 1 for pose in shown["poses"].values() for column in pose["columns"]),
+            data=script_data(shown),
         )
     )

@@ -87,19 +87,20 @@ class GlbExporter(Exporter):
 
     name = "glb"
     suffix = ".glb"
-    modules = ("mechwright_cad.exporters.mesh",)
+    modules = ("mechwright_cad.exporters.glb",)
+    samples = 361
 
     def part(self, part: "Part") -> bytes:
         """One node."""
-        from mechwright_cad.exporters import mesh
+        from mechwright_cad.exporters import glb
 
-        return mesh.glb_part(part)
+        return glb.glb_part(part)
 
     def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes | None:
-        """One mesh per part, one named node per instance."""
-        from mechwright_cad.exporters import mesh
+        """One mesh per part, one named node per instance; what moves is animated."""
+        from mechwright_cad.exporters import glb
 
-        return mesh.glb_assembly(name, parts, motion, sample)
+        return glb.glb_assembly(name, parts, motion, sample)
 
 
 class MjcfExporter(Exporter):

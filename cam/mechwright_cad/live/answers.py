@@ -54,7 +54,9 @@ def parts(design: Design) -> Answer:
             made = design.parts()
             # Solids take the CAD kernel: what has no plates that move is shown by its links.
             shown = not design.family.moves or _seen(made, solved)
-            answer["scene"] = _with_targets(design, scene(made if shown else (), solved, solids=False))
+            answer["scene"] = _with_targets(
+                design, scene(made if shown else (), solved, solids=False, space=True)
+            )
         except MechwrightError as error:
             answer["unmade"] = str(error)
             answer["scene"] = _with_targets(design, scene((), solved, solids=False))

@@ -28,6 +28,7 @@ from mechwright_cad.live.handover import Handover
 from mechwright_cad.live.patience import MANY, Impatient
 from mechwright_cad.live.session import Session
 from mechwright_cad.live.wishing import Wishing
+from mechwright_cad.viewer import ANIMATION, VIEWER
 
 HOST = "127.0.0.1"
 LOOK = 0.4
@@ -41,7 +42,6 @@ GRACE = 1
 """Seconds that answers have which are under way when the server is ended; some would take minutes."""
 
 _SITE = Path(__file__).parent / "site"
-_ANIMATION = Path(__file__).parents[1] / "animation"
 
 
 class Server:
@@ -121,17 +121,16 @@ def _file(kind: str, content: Callable[[], str]) -> Callable[[Request], Awaitabl
 
 
 def _page() -> str:
-    return templates(_SITE, _ANIMATION).get_template("live.html").render()
+    return templates(_SITE, ANIMATION, VIEWER).get_template("live.html").render()
 
 
 def _script() -> str:
-    return templates(_SITE, _ANIMATION).get_template("live.js").render()
+    return templates(_SITE, ANIMATION, VIEWER).get_template("live.js").render()
 
 
 def _style() -> str:
-    return (_ANIMATION / "page.css").read_text(encoding="utf-8") + (_SITE / "live.css").read_text(
-        encoding="utf-8"
-    )
+    sheets = (ANIMATION / "page.css", VIEWER / "viewer.css", _SITE / "live.css")
+    return "".join(sheet.read_text(encoding="utf-8") for sheet in sheets)
 
 
 def bound(port: int) -> socket.socket:

@@ -142,6 +142,10 @@ class Verify(Command):
         page: Annotated[
             Path | None, typer.Option(metavar="FILE", help="Write the report as a page.", show_default=False)
         ] = None,
+        job: Annotated[
+            Path | None,
+            typer.Option(metavar="FILE", help="Write a page that plays the program.", show_default=False),
+        ] = None,
         as_json: AsJson = False,
     ) -> None:
         """Prove that a program from anywhere cuts the part.
@@ -151,7 +155,7 @@ class Verify(Command):
         """
         from mechwright_cam.commands import verify
 
-        report = verify.Report(as_json, page)
+        report = verify.Report(as_json, page, job)
         drawn = {
             "thickness": thickness,
             "tools": tools,

@@ -44,6 +44,8 @@ class Report:
     as_json: bool = False
     page: Path | None = None
     """An HTML page to write."""
+    job: Path | None = None
+    """A page to write on which the program is played on its stock."""
 
 
 def verify(programs: Sequence[Path], path: Path, part_name: str, report: Report, control: str = "") -> None:
@@ -105,6 +107,10 @@ def report_proof(scene: Scene, proof: Proof, program: str, report: Report) -> No
         from mechwright_cam.pages.report.report import report_html
 
         write_new(report.page, report_html(with_found_tabs(scene), proof, program), replace=True)
+    if report.job is not None:
+        from mechwright_cam.pages.job.page import job_html
+
+        write_new(report.job, job_html(with_found_tabs(scene), proof, program), replace=True)
     if report.as_json:
         typer.echo(json.dumps(proof.as_dict(), indent=2))
     else:

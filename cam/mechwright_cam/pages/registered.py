@@ -127,6 +127,7 @@ class SetupSheets(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """HTML by file."""
+        from mechwright_cam.pages.job import JOB
         from mechwright_cam.pages.seen import Seen
         from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
         from mechwright_cam.pages.setup_sheet.raster import simulated_view
@@ -153,6 +154,7 @@ class SetupSheets(Page):
                 files=files[name],
                 probing="".join(machining.probing.get(name, ("",))[:1]),
                 measuring=tuple(machining.measuring.get(name, ())),
+                played=name + JOB,
             )
         sheets = [
             (item.job, item.program, seen.proofs[item.program.name]) for item in machining.proven_programs
@@ -169,6 +171,37 @@ class SetupSheets(Page):
             guide=GUIDE if AssemblyGuide().shown(build) else "",
         )
         return made
+
+
+class JobPages(Page):
+    """A page for each program, on which it is played on its stock."""
+
+    name = "job-pages"
+    commands = COMMANDS
+    doing = DOING
+
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+        """One for each job."""
+        from mechwright_cam.pages.file_names import machined, named
+        from mechwright_cam.pages.job import JOB
+
+        machining = machined(build)
+        if machining is None:
+            return []
+        return [named(machining, job, job.part.name, JOB, "the job page of ") for job in machining.jobs]
+
+    def files(self, build: Build) -> dict[str, str]:
+        """HTML by file."""
+        from mechwright_cam.pages.job import JOB
+        from mechwright_cam.pages.job.page import job_html
+        from mechwright_cam.pages.setup_sheet import SHEET
+
+        return {
+            item.program.name + JOB: job_html(
+                item.scene, item.proof, ", ".join(item.files), item.program.name + SHEET
+            )
+            for item in _machining(build).proven_programs
+        }
 
 
 def curve_kind(text: str) -> Curves:

@@ -263,22 +263,32 @@ def _inside(
     return inside
 
 
+def blank(job: Job, cell: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """The stock of a job before any cut, (ny, nx) mm: what is there, and below which nothing is."""
+    grid = _Grid.of(job, job.stock, cell)
+    return grid.heights, grid.floors
+
+
 def deviation(simulation: Simulation, job: Job, coarser: int) -> NDArray[np.float32]:
     """(my, mx) height of the stock over the finished part, mm; NaN beside the part and next to its walls.
 
     ``coarser`` cells of the grid are one here. Walls are left to the proof: on a grid they have steps.
     """
     seen = simulation.heights[::coarser, ::coarser]
-    cell = simulation.cell * coarser
-    wanted = np.full(seen.shape, np.nan, dtype=np.float32)
+    return seen - wanted_heights(job, (seen.shape[0], seen.shape[1]), simulation.cell * coarser)
+
+
+def wanted_heights(job: Job, shape: tuple[int, int], cell: float) -> NDArray[np.float32]:
+    """(ny, nx) height of the finished part, mm, on a grid; NaN beside the part and next to its walls."""
+    wanted = np.full(shape, np.nan, dtype=np.float32)
     for band in reversed(bands(job)):
         flat = shapely.buffer(band.keep, -1.5 * cell, quad_segs=2)
-        wanted[_inside(flat, job.stock[:2], seen.shape, cell)] = band.top
+        wanted[_inside(flat, job.stock[:2], shape, cell)] = band.top
     for band in bands(job):  # nothing is told of a floor beside a wall above it
         near = shapely.buffer(shapely.boundary(band.keep), 1.5 * cell, quad_segs=2)
-        wanted[_inside(near, job.stock[:2], seen.shape, cell)] = np.nan
+        wanted[_inside(near, job.stock[:2], shape, cell)] = np.nan
     for fillet in fillets(job):
-        rows, columns = np.nonzero(_inside(fillet.foot, job.stock[:2], seen.shape, cell))
+        rows, columns = np.nonzero(_inside(fillet.foot, job.stock[:2], shape, cell))
         x, y = job.stock[0] + (columns + 0.5) * cell, job.stock[1] + (rows + 0.5) * cell
         wanted[rows, columns] += fillet.rise(shapely.distance(fillet.walls, shapely.points(x, y)))
-    return seen - wanted
+    return wanted

@@ -21,6 +21,8 @@ class Exporter(Plugin):
 
     suffix: ClassVar[str]
     """Ending of its files."""
+    samples: ClassVar[int] = 2
+    """Samples of the motion that :meth:`assembly` needs at least: more than its ends where the file moves."""
     modules: ClassVar[tuple[str, ...]] = ()
     """Names of modules that it imports when it writes and that take long to import: where they are not
     imported yet, ``build`` may let it write in a second process, beside other work. A copy made by pickle

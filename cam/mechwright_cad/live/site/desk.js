@@ -28,7 +28,7 @@ const remedies = newest("remedies", (found, asked) => {
 }, () => { document.getElementById("waiting").textContent = ""; });
 const motion = newest("motion", (found, asked) => {
   // While plates are drawn, links go over them; what the plates are comes a moment later.
-  present_(ghost || !picture || !picture.layers || picture.bare ? found.scene : { ...found.scene, ghost: picture }, asked);
+  present_(ghost || !picture || !picture.layers || picture.bare ? { ...found.scene, making: true } : { ...found.scene, ghost: picture }, asked);
   mended();
   parts(asked);
 }, failed);

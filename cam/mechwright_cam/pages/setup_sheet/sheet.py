@@ -39,6 +39,7 @@ def setup_html(
     files: Sequence[str] = (),
     probing: str = "",
     measuring: Sequence[str] = (),
+    played: str = "",
 ) -> str:
     """The setup sheet of a program: a page that needs no other file and no network, and prints on A4.
 
@@ -59,6 +60,8 @@ def setup_html(
         The simulated stock, and the deviation along the walls, ``<svg>`` elements of our own.
     summary
         The page of the whole job, to which the sheet leads.
+    played
+        The page that plays the program, to which the sheet leads.
     files
         The names of the program's files in order, without their ending; by default one of its own name.
     probing
@@ -120,6 +123,7 @@ def setup_html(
         "table_words": control.table_words(tool_table) if tool_table else "",
         "design": design,
         "summary": summary,
+        "played": played,
         "file_name": span(names),
         # Our own markup; all text in it is escaped where it is made.
         "plan": Markup(plan_view(job, program, traced, marks, control.units)),  # noqa: S704
