@@ -1,0 +1,60 @@
+"""The command ``mechwright-check``: 0 confirmed, 1 refuted, 2 not checkable; one line says why."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import shapely
+
+from mechwright_check import Refuted, Unknown, drawing
+from mechwright_check.certificate import case_of, compare, load, texts_of
+from mechwright_check.checks import check_all
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command; gives its exit code."""
+    parser = argparse.ArgumentParser(prog="mechwright-check", description=__doc__)
+    parser.add_argument("certificate", type=Path, help="NAME.certificate.json, with its program beside it")
+    parser.add_argument("files", type=Path, nargs="*", help="inputs that are not beside it, such as the design")
+    parser.add_argument("--dxf", type=Path, help="your own drawing of the part")
+    drawing.add_options(parser)
+    asked = parser.parse_args(arguments)
+    notes: list[str] = []
+    try:
+        said = _checked(asked, notes)
+        code = 0
+    except Refuted as error:
+        code, said = 1, f"REFUTED: {error}"
+    except Unknown as error:
+        code, said = 2, f"not checkable: {error}"
+    except (MemoryError, RecursionError):
+        code, said = 2, "not checkable: too large"
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError) as error:
+        code, said = 1, f"REFUTED: the certificate is damaged ({type(error).__name__}: {str(error)[:80]})"
+    except (shapely.errors.ShapelyError, ArithmeticError) as error:
+        code, said = 2, f"not checkable: {type(error).__name__}"
+    for note in notes if code == 0 else ():
+        print(f"note: {note}")
+    print(f"{asked.certificate}: {' '.join(said.split())}")
+    return code
+
+
+def _checked(asked: argparse.Namespace, notes: list[str]) -> str:
+    if asked.certificate.suffix != ".json":
+        case = drawing.case_of(asked, notes)
+        check_all(case)
+        return "confirmed: it cuts the part of the drawing"
+    found = load(asked.certificate)
+    texts = texts_of(found, asked.certificate.parent, asked.files, notes)
+    case = case_of(found, texts, notes)
+    compare(case, found["moves"])
+    if asked.dxf is not None:
+        drawing.compare(case, found["part"], asked.dxf)
+    check_all(case)
+    if asked.dxf is None:
+        return "consistent: it cuts the part of its certificate (with --dxf DRAWING that is compared as well)"
+    return "confirmed: it cuts the part of the drawing"
+
+
+if __name__ == "__main__":
+    sys.exit(main())
