@@ -1,4 +1,8 @@
-"""Shapes of lines and arcs, paths as chords, and what they cover: all within SAG of the exact curves."""
+"""Shapes of lines and arcs, paths as chords, and what those cover: all within SAG of the exact curves.
+
+A chord is a straight piece of path. What a chord sweeps in plan view is a capsule, which is convex: it holds a
+stretch of a wall if it holds both of its ends.
+"""
 
 from dataclasses import dataclass
 from typing import Any
@@ -6,84 +10,73 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright_check import Refuted
+from mechwright_check import Refuted, Unknown
+from mechwright_check.reading import CENTRE, END, KIND, START, SWEEP, TOOL
 
 SAG = 0.0003
 """Chords of arcs are so far off at most, mm; it is added to what a limit allows, against the program."""
-SHORTEST = 0.002
-"""Stretches of a wall that nothing covers are halved down to this length, mm."""
-LONGEST = 1.0
-"""A stretch of a wall is so long at first, mm."""
-MOST = 4_000_000
-"""Chords of a program."""
-
-
-def polygons(rings: Any) -> Any:
-    """The region of rings of nodes, mm: outer rings run counter-clockwise, and their holes follow them."""
-    found: list[tuple[Any, list[Any]]] = []
-    for ring in rings:
-        points = _corners(ring)
-        if len(points) < 3 or not np.isfinite(points).all():
-            raise Refuted("the certificate has a ring that encloses nothing")
-        if shapely.is_ccw(shapely.linearrings(points)):
-            found.append((points, []))
-        elif found:
-            found[-1][1].append(points)
-        else:
-            raise Refuted("the certificate has a hole outside of any outline")
-    shape = shapely.MultiPolygon([shapely.Polygon(outer, holes) for outer, holes in found])
-    if not shapely.is_valid(shape):
-        raise Refuted("the certificate has an outline that crosses itself")
-    return shape
-
-
-def _corners(ring: Any) -> np.ndarray:
-    """Corners (n, 2) of a ring of nodes in µm, mm."""
-    points, last = [], ring[-1][:2]
-    for node in ring:
-        if len(node) == 5:
-            a, b, c = np.array(last), np.array(node[:2]), np.array(node[2:4])
-            points += arc_points(a / 1000, b / 1000, c / 1000, swept(a, b, c, node[4]))[1:].tolist()
-        else:
-            points.append([node[0] / 1000, node[1] / 1000])
-        last = node[:2]
-    return np.array(points, dtype=np.float64)
-
-
-def swept(a: np.ndarray, b: np.ndarray, c: np.ndarray, turn: float) -> float:
-    """Angle of an arc from a to b about c, rad; positive counter-clockwise."""
-    angle = np.arctan2(*(b - c)[::-1]) - np.arctan2(*(a - c)[::-1])
-    return float(angle % (2 * np.pi) if turn > 0 else -(-angle % (2 * np.pi)))
-
-
-def arc_points(a: np.ndarray, b: np.ndarray, c: np.ndarray, angle: float) -> np.ndarray:
-    """Points (n, 2 or 3) along an arc or helix; a small difference of the radii is spread along it."""
-    radius, last = np.hypot(*(a - c)[:2]), np.hypot(*(b[:2] - c[:2]))
-    step = 2 * np.arccos(max(1 - SAG / max(radius, last, SAG), -1.0))
-    share = np.linspace(0, 1, min(int(abs(angle) / step) + 2, MOST))[:, None]
-    first = np.arctan2(*(a - c)[1::-1])
-    out = a + (b - a) * share
-    reach = radius + (last - radius) * share[:, 0]
-    out[:, 0] = c[0] + reach * np.cos(first + angle * share[:, 0])
-    out[:, 1] = c[1] + reach * np.sin(first + angle * share[:, 0])
-    return out
+SHORTEST, LONGEST = 0.002, 1.0
+"""Stretches of a wall are so long at first, and halved down to where they are held or so short, mm."""
+MOST = 3_000_000
+"""Chords of a program, or corners of a part."""
 
 
 @dataclass(frozen=True)
 class Cutter:
-    """The outline of a tool: a cone from its tip on, then a cylinder; mm."""
+    """The outline of a tool: a cone from its tip on, then a cylinder; ``raw`` is all that is said of it."""
 
-    number: int
     kind: str
     radius: float
     tip: float
     slope: float
-    flute_length: float
     raw: dict[str, Any]
 
     def at(self, height: Any) -> Any:
         """Radius at a height above the tip."""
         return np.minimum(self.radius, self.tip + self.slope * np.maximum(height, 0.0))
+
+
+def polygons(rings: Any) -> Any:
+    """The region of rings of nodes, µm: outer rings run counter-clockwise, and their holes follow them."""
+    found: list[tuple[Any, list[Any]]] = []
+    for ring in rings:
+        points = _corners(np.array([node[:2] for node in ring], dtype=np.float64) / 1000, ring)
+        if shapely.is_ccw(shapely.linearrings(points)):
+            found.append((points, []))
+        else:
+            found[-1][1].append(points)
+    shape = shapely.MultiPolygon(found)
+    if not shapely.is_valid(shape) or not np.isfinite(shapely.get_coordinates(shape)).all():
+        raise Refuted("the certificate has an outline that crosses itself")
+    return shape
+
+
+def _corners(ends: np.ndarray, ring: Any) -> np.ndarray:
+    """Corners (n, 2) of a ring whose nodes end at ``ends``."""
+    points = []
+    for a, b, node in zip(np.roll(ends, 1, axis=0), ends, ring, strict=True):
+        if len(node) == 5:
+            centre = np.array(node[2:4]) / 1000
+            angle = np.arctan2(*(b - centre)[::-1]) - np.arctan2(*(a - centre)[::-1])
+            angle = angle % (2 * np.pi) if node[4] > 0 else -(-angle % (2 * np.pi))
+            points += arc_points(a, b, centre, angle)[1:].tolist()
+        else:
+            points.append(b)
+    return np.array(points)
+
+
+def arc_points(a: np.ndarray, b: np.ndarray, c: np.ndarray, angle: float) -> np.ndarray:
+    """Points (n, 2 or 3) along an arc or helix about c; a small difference of the radii is spread along it."""
+    first, last = np.hypot(*(a - c)[:2]), np.hypot(*(b - c)[:2])
+    count = abs(angle) / (2 * np.arccos(max(1 - SAG / max(first, last, SAG), -1.0))) + 2
+    if not count < MOST / 100:
+        raise Unknown("an arc of a radius that is too large")
+    share = np.linspace(0, 1, int(count))
+    turned, reach = np.arctan2(*(a - c)[1::-1]) + angle * share, first + (last - first) * share
+    out = a + (b - a) * share[:, None]
+    out[:, :2] = c[:2] + np.column_stack((reach * np.cos(turned), reach * np.sin(turned)))
+    out[-1] = b
+    return out
 
 
 @dataclass(frozen=True)
@@ -98,24 +91,21 @@ class Chords:
 
     @classmethod
     def of(cls, moves: np.ndarray) -> "Chords":
-        """The chords of moves as the reader gives them."""
-        ends, owner = [], []
-        bent = moves[:, 10] != 0
-        for place in np.flatnonzero(bent):
+        """The chords of moves, in their order."""
+        bent = np.flatnonzero(moves[:, SWEEP])
+        straight = np.flatnonzero(moves[:, SWEEP] == 0)
+        every, owner = [np.hstack((moves[straight, START], moves[straight, END]))], [straight]
+        for place in bent.tolist():
             row = moves[place]
-            points = arc_points(row[2:5], row[5:8], np.append(row[8:10], 0.0), row[10])
-            ends.append(np.hstack((points[:-1], points[1:])))
+            points = arc_points(row[START], row[END], np.append(row[CENTRE], 0.0), row[SWEEP])
+            every.append(np.hstack((points[:-1], points[1:])))
             owner.append(np.full(len(points) - 1, place))
-        straight = np.flatnonzero(~bent)
-        ends.append(moves[straight, 2:8])
-        owner.append(straight)
-        every, of = np.concatenate(ends), np.concatenate(owner)
+        ends, of = np.concatenate(every), np.concatenate(owner)
+        if len(of) > MOST:
+            raise Unknown("too many chords")
         order = np.argsort(of, kind="stable")
-        every, of = every[order], of[order]
-        return cls(every[:, :3], every[:, 3:], of, moves[of, 11].astype(int), moves[of, 1] == 1)
-
-    def __len__(self) -> int:
-        return len(self.move)
+        ends, of = ends[order], of[order]
+        return cls(ends[:, :3], ends[:, 3:], of, moves[of, TOOL].astype(int), moves[of, KIND] == 1)
 
     def only(self, which: np.ndarray) -> "Chords":
         """Some of them."""
@@ -123,79 +113,65 @@ class Chords:
 
     @property
     def low(self) -> np.ndarray:
-        """Their lower ends (n,), mm."""
+        """Their lower ends (n,)."""
         return np.minimum(self.a[:, 2], self.b[:, 2])
 
     def below(self, height: float) -> "Chords":
-        """Their parts below a height."""
+        """Their parts below a height: each piece in plan view once, at its lowest."""
         some = self.only(self.low < height)
         a, b = some.a.copy(), some.b.copy()
         for one, other in ((a, b), (b, a)):
             over = one[:, 2] > height
             share = (one[over, 2] - height) / (one[over, 2] - other[over, 2])
             one[over] += (other[over] - one[over]) * share[:, None]
-        return Chords(a, b, some.move, some.tool, some.fed)
-
-    def distinct(self) -> "Chords":
-        """Each piece of path in plan view once, at its lowest: passes repeat at every depth."""
-        order = np.lexsort((self.move, self.low))
-        table = np.column_stack((self.tool, self.fed, self.a[:, :2] * 1e4, self.b[:, :2] * 1e4))[order]
-        kept = np.unique(np.round(table).astype(np.int64), axis=0, return_index=True)[1]
-        return self.only(np.sort(order[kept]))
+        order = np.argsort(some.low, kind="stable")
+        plan = np.column_stack((some.tool, some.fed, a[:, :2] * 1e4, b[:, :2] * 1e4))[order]
+        kept = np.unique(np.round(plan).astype(np.int64), axis=0, return_index=True)[1]
+        return Chords(a, b, some.move, some.tool, some.fed).only(np.sort(order[kept]))
 
     def lines(self) -> np.ndarray:
-        """One line for each, or a point where it goes straight down; rapids may go anywhere in their box."""
-        return lines(self.a, self.b)
+        """One line (n,) for each, in plan view; a point where it goes straight down."""
+        found = shapely.linestrings(np.stack((self.a[:, :2], self.b[:, :2]), axis=1))
+        still = (self.a[:, :2] == self.b[:, :2]).all(axis=1)
+        found[still] = shapely.points(self.a[still, :2])
+        return found
 
     def radii(self, tools: dict[int, Cutter], height: float) -> np.ndarray:
-        """How wide (n,) each tool is at a height, mm."""
-        out = np.zeros(len(self))
-        for number in np.unique(self.tool):
+        """How wide (n,) their tools are at a height."""
+        out = np.zeros(len(self.move))
+        for number in np.unique(self.tool).tolist():
             mine = self.tool == number
             out[mine] = tools[number].at(height - self.low[mine])
         return out
 
 
-def lines(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Lines between places (n, 2 or more); points where both ends are one."""
-    found = shapely.linestrings(np.stack((a[:, :2], b[:, :2]), axis=1))
-    still = (a[:, :2] == b[:, :2]).all(axis=1)
-    found[still] = shapely.points(a[still, :2])
-    return found
+def nearest(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distance (n,) of points (n, 2) from chords in plan view, and z of the chords there."""
+    along = (b - a)[:, :2]
+    share = ((points - a[:, :2]) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-18)
+    at = a + (b - a) * np.clip(share, 0.0, 1.0)[:, None]
+    return np.hypot(*(at[:, :2] - points).T), at[:, 2]
 
 
-def uncovered(walls: Any, a: np.ndarray, b: np.ndarray, radii: np.ndarray) -> np.ndarray:
-    """Stretches (k, 2, 2) of lines that no capsule about a chord holds as a whole, mm.
-
-    A capsule is convex, so that it holds a stretch if it holds both of its ends.
-    """
+def uncovered(walls: Any, chords: Chords, radii: np.ndarray) -> np.ndarray:
+    """Stretches (k, 2, 2) of lines that no capsule about a chord holds as a whole."""
     parts = shapely.get_parts(shapely.segmentize(walls, LONGEST))
-    coords, ring = shapely.get_coordinates(parts, return_index=True)
-    joined = ring[1:] == ring[:-1]
-    left = np.stack((coords[:-1][joined], coords[1:][joined]), axis=1)
-    groups = [(radius, np.flatnonzero(radii == radius)) for radius in np.unique(radii)]
-    trees = [(radius, mine, shapely.STRtree(lines(a[mine], b[mine]))) for radius, mine in groups if radius > 0]
+    corners, line = shapely.get_coordinates(parts, return_index=True)
+    joined = line[1:] == line[:-1]
+    left, lines = np.stack((corners[:-1][joined], corners[1:][joined]), axis=1), chords.lines()
+    groups = [(radius, np.flatnonzero(radii == radius)) for radius in np.unique(radii[radii > 0])]
+    trees = [(radius, mine, shapely.STRtree(lines[mine])) for radius, mine in groups]
     while len(left):
         open_ = np.ones(len(left), dtype=bool)
         for radius, mine, tree in trees:
             places = np.flatnonzero(open_)
-            spots = shapely.points(left[places, 0])
-            spot, chord = tree.query(spots, predicate="dwithin", distance=radius)
+            spot, chord = tree.query(shapely.points(left[places, 0]), predicate="dwithin", distance=radius)
             place, chord = places[spot], mine[chord]
-            held = distance(left[place, 1], a[chord, :2], b[chord, :2]) <= radius
+            held = nearest(left[place, 1], chords.a[chord], chords.b[chord])[0] <= radius
             open_[place[held]] = False
         left = left[open_]
-        length = np.hypot(*(left[:, 1] - left[:, 0]).T)
-        if len(left) == 0 or length.max() < SHORTEST:
-            return left
+        if len(left) == 0 or np.hypot(*(left[:, 1] - left[:, 0]).T).max() < SHORTEST:
+            break
         middle = left.mean(axis=1)
         left = np.concatenate((np.stack((left[:, 0], middle), 1), np.stack((middle, left[:, 1]), 1)))
     return left
-
-
-def distance(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Distance (n,) of points from segments."""
-    along = b - a
-    square = np.maximum((along**2).sum(axis=1), 1e-18)
-    share = np.clip(((points - a) * along).sum(axis=1) / square, 0.0, 1.0)
-    return np.hypot(*(a + along * share[:, None] - points).T)

@@ -1,367 +1,324 @@
 """Derives the moves of a program from its words, and holds the states that they need.
 
 Every mode is set before it is used, the spindle turns while the tool is fed, T, D and H agree, tools are changed
-and hands reach in at the machine's upper end only. Places are those of the work offset, mm; z is inf at the
-machine's upper end and nan where nothing says it.
+and hands reach in at the machine's upper end only. A place is nan where nothing says it, and z is inf, and TOP
+in moves, at the machine's upper end.
 """
 
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
-from mechwright_check import Refuted, Unknown, at
-from mechwright_check.words import DIALECTS, ORDER, WORD
+from mechwright_check import Refuted, Unknown
+from mechwright_check.words import GAP, ORDER, POINTS, ROWS, WORD, pattern
 
-ACTIVE = re.compile(r"\(\s*(debug|print|log|logopen|logappend|logclose|probe\w*|py\w*|abort)\b", re.IGNORECASE)
-COMMENT = re.compile(r"\([^()]*\)")
-ARC = 0.003
-"""Radii at both ends of an arc agree within so much, mm."""
-RETRACT = 2.003
-"""A full retract may end so far below the place that the machine's file says, mm: off the switch, on Grbl."""
-MOST = 2_000_000
-"""Moves of a program."""
-
-
-@dataclass
-class Moves:
-    """What a program does, a row for each motion that goes anywhere."""
-
-    rows: list[tuple[float, ...]] = field(default_factory=list)
-    """Line, kind (0 rapid, 1 feed), start, end, centre, sweep, T, rev/min, mm/min, D of corners, file, stops."""
-    ended: bool = False
-
-    def array(self) -> np.ndarray:
-        """(n, 17) float."""
-        return np.array(self.rows, dtype=np.float64).reshape(-1, 17)
+ACTIVE = re.compile(
+    r"\(\s*(debug|print|log|logopen|logappend|logclose|probe\w*|py\w*|abort)\b", re.IGNORECASE
+)
+TOP: Final = 1000.0
+ARC, RETRACT, ROUNDED, WIDEST = 0.003, 2.003, 0.003, 0.05
+"""Radii of an arc agree so well; a retract ends so near its place (off the switch), an end of travel is so much
+rounded; a control may leave the path by so much."""
+MOST, FAR = 1_000_000, 20_000.0
+"""Moves of a program, and the furthest place."""
+LINE, KIND, START, END, CENTRE, SWEEP = 0, 1, slice(2, 5), slice(5, 8), slice(8, 10), 10
+TOOL, RPM, FEED, OFF, FILE, STOPS, COLUMNS = 11, 12, 13, 14, 15, 16, 17
+"""Columns of a move: kind is 0 of a rapid and 1 of a feed, OFF how far the control may leave the path."""
+Words = dict[str, str]
 
 
 class Reader:
-    """One program on one control."""
+    """A program of some files on one control, of which the moves are gathered in ``rows``."""
 
     def __init__(self, control: str, machine: dict[str, Any], tools: dict[int, Any]) -> None:
-        if control not in DIALECTS:
+        if control not in ROWS:
             raise Unknown(f"no table of words for the control {control!r:.40}")
-        self.control, self.dialect, self.machine, self.tools = control, DIALECTS[control], machine, tools
-        self.moves, self.stops = Moves(), 0
+        self.control, self.machine, self.tools, self.stops = control, machine, tools, 0
+        self.table = [(action, pattern(row)) for action, row in ROWS[control]]
+        self.klartext = control == "heidenhain-tnc"
+        self.rows: list[tuple[float, ...]] = []
 
     def read(self, text: str, number: int, name: str) -> None:
-        """Run one file; files follow each other with the machine as the one before has left it."""
-        self.file, self.number, self.line = name, number, 0
-        self.place = [math.nan, math.nan, math.nan]
-        self.motion, self.feed, self.scale, self.cycle = "", 0.0, 0.0, None
-        self.tool = self.selected = self.length = self.turn = 0
-        self.rpm, self.off, self.offset, self.centre, self.incremental = 0.0, math.nan, "", None, False
-        self.up = self.by_hand = self.waited = self.wet = False
-        self.moves.ended = False
-        for self.line, block in self._blocks(text):
-            if self.moves.ended and not block.startswith("END PGM"):
-                self._unknown("words behind the program's end")
-            for action, expression in self.dialect.table:
-                found = expression.fullmatch(block + " ")
-                if found:
-                    words = {key: value for key, value in found.groupdict().items() if value is not None}
-                    getattr(self, "_" + action)(words)
-                    break
-            else:
-                self._unknown(f"{block!r:.60} is no block of the table for {self.control}")
-        if not self.moves.ended:
-            self._wrong("the program has no end")
+        """Run one file, of which the machine knows nothing before."""
+        self.file, self.number, self.line, self.place = name, number, 0, [math.nan] * 3
+        self.motion, self.offset, self.feed, self.scale, self.rpm, self.off = "", "", 0.0, 0.0, 0.0, math.nan
+        self.cycle: Words = {}
+        self.centre: list[float] = []
+        self.coolant: set[str] = set()
+        self.tool = self.ready = self.length = self.turn = 0
+        self.up = self.by_hand = self.ended = self.incremental = False
+        for self.line, block in self.blocks(text):
+            self.unknown(self.ended and not block.startswith("END PGM"), "words behind the program's end")
+            found = ((action, row.fullmatch(block + " ")) for action, row in self.table)
+            action, match = next(((action, match) for action, match in found if match), ("", None))
+            self.unknown(match is None, f"{block!r:.60} is no block of the table for {self.control}")
+            words = (
+                {key: value for key, value in match.groupdict().items() if value is not None} if match else {}
+            )
+            (self.move if action in {"move", "rapid", "feed", "arc", "helix", "cycle"} else self.obey)(
+                action, words
+            )
+        self.wrong(not self.ended, "the program has no end")
 
-    def _wrong(self, why: str) -> None:
-        raise Refuted(at(self.line, self.file) + why)
+    def wrong(self, condition: bool, why: str, kind: type[Exception] = Refuted) -> None:
+        """Refute the program on a condition."""
+        if condition:
+            raise kind(f"{self.file}{': ' * bool(self.file)}line {self.line}: {why}")
 
-    def _unknown(self, why: str) -> None:
-        raise Unknown(at(self.line, self.file) + why)
+    def unknown(self, condition: bool, why: str) -> None:
+        """Say on a condition that nothing can be said."""
+        self.wrong(condition, why, Unknown)
 
-    def _blocks(self, text: str) -> Iterator[tuple[int, str]]:
+    def blocks(self, text: str) -> Iterator[tuple[int, str]]:
         """Number of each line with anything in it, and its words in order."""
+        due, joined, longest = 0, False, 80 if self.control == "grbl" else 250
         for self.line, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
-            if len(line) > self.dialect.longest or not line.isprintable():
-                self._unknown(f"more than {self.dialect.longest} characters, or one that cannot be printed")
-            if ACTIVE.search(line) or (self.control == "grbl" and re.search("[?!~]", line)):
-                self._unknown("a comment that the control obeys")
-            if self.dialect.klartext:
-                block = re.sub(r"^\d+ ", "", line).partition(";")[0].split()
-                block = ["PGM", "NAME"] if block[:1] == ["PGM"] else block
-                if block[1:2] == ["PGM"] and len(block) == 4:
-                    block[2] = "NAME"
-                if block:
-                    yield self.line, " ".join(block)
-                continue
-            words = re.sub(r'^MSG\("[^"]*"\)$', "", line) if self.control == "siemens-840d" else line
-            words = COMMENT.sub(" ", words.partition(";")[0]).replace(" ", "").upper()
-            words = "" if words == "%" or re.fullmatch(r"O\d{1,8}", words) else words
-            words = re.sub(r"^N\d{1,8}(?=\D)", "", words)
-            found = list(WORD.finditer(words))
-            if "".join(match[0] for match in found) != words:
-                self._unknown(f"{words!r:.60} is no block of words")
+            odd = len(line) > longest or not line.isprintable() or ACTIVE.search(line)
+            odd = odd or (self.control == "grbl" and re.search("[?!~]", line))
+            self.unknown(bool(odd), "too long, not to be printed, or a comment that the control obeys")
+            if self.klartext:
+                number = re.match(r"\d+ ", line)
+                self.unknown(
+                    bool(line) and not joined and (number is None or int(number[0]) != due), f"no block {due}"
+                )
+                due, joined = due + (bool(line) and not joined), line.endswith("~")
+                words = re.sub(
+                    r"(?<=PGM )\S+", "NAME", line[number.end() if number else 0 :].partition(";")[0]
+                ).split()
+            else:
+                line = re.sub(r'^MSG\("[^"]*"\)$', "", line) if self.control == "siemens-840d" else line
+                line = re.sub(r"\([^()]*\)", " ", line.partition(";")[0]).replace(" ", "").upper()
+                line = re.sub(r"^N\d{1,8}(?=\D)", "", re.sub(r"^(%|O\d{1,8})$", "", line))
+                found = list(WORD.finditer(line))
+                self.unknown("".join(word[0] for word in found) != line, f"{line!r:.60} is no block of words")
+                for word in found:
+                    bare = word[1] in "XYZIJRQF" and "." not in (word[2] or "") and self.control in POINTS
+                    self.unknown(bare, f"{word[0]} without a decimal point")
+                words = [f"{w[1]}{float(w[2]):g}" if w[1] in "GM" and w[2] else w[0] for w in found]
+                words.sort(key=_order)
             if words:
-                yield self.line, " ".join(sorted(map(self._spelled, found), key=_order))
+                yield self.line, " ".join(words)
 
-    def _spelled(self, word: re.Match[str]) -> str:
-        letter, number = word[1], word[2]
-        if number is None:
-            return letter
-        if letter in "GM":
-            return letter + f"{float(number):g}"
-        if self.dialect.point and letter in "XYZIJRQF" and "." not in number:
-            self._unknown(f"{letter}{number} without a decimal point")
-        return letter + number
+    def obey(self, action: str, words: Words) -> None:
+        """Do what a block says that makes no move in the work."""
+        number = int(float(words.get("T", words.get("N", self.ready))))
+        match action:
+            case "modes":
+                self.scale = 25.4 if words["units"] in {"G20", "G700", "INCH"} else 1.0
+                self.motion, self.cycle, self.incremental = "", {}, False
+                self.length = self.length if self.klartext else 0
+            case "offset" | "preset" | "start":
+                offset = f"G{53 + number}" if action == "preset" else words.get("offset", self.offset)
+                self.wrong(
+                    offset != (self.machine["work_offset"] or offset), f"the job is not set up in {offset}"
+                )
+                self.unknown(self.offset not in {"", offset}, "another work offset")
+                self.offset = offset
+                if action == "start":
+                    self.rpm, self.turn = float(words.get("S", self.rpm)), 1 if words["turn"] == "M3" else -1
+                    self.wrong(
+                        not self.up or not self.tool, "the spindle starts with the tool down, or without one"
+                    )
+                    self.wrong(
+                        self.by_hand, f"T{self.tool} is put in by hand, and nothing stops the program for it"
+                    )
+            case "corners":
+                self.off = float(words.get("P", words.get("T", "0"))) * (self.scale or 1.0)
+                loose = (
+                    self.off > WIDEST or float(words.get("Q", "0")) != 0 or (self.off == 0 and self.klartext)
+                )
+                self.wrong(loose, f"the control may leave the path by more than {WIDEST} mm")
+            case "stop":
+                self.wrong(not self.place[2] > 0.2, "the spindle stops in the stock")
+                self.turn = 0
+            case "coolant":
+                kind = {"M7": {"mist"}, "M8": {"flood"}}.get(words["coolant"])
+                self.coolant = self.coolant | kind if kind else set()
+            case "pause" | "end":
+                busy = self.turn or not self.up or self.coolant
+                self.wrong(bool(busy), "stops with the spindle turning, coolant running or the tool down")
+                self.stops += words.get("stop") == "M0" and not self.by_hand
+                self.by_hand = self.by_hand and words.get("stop") != "M0"
+                self.length, self.ended = self.length if self.klartext else 0, action == "end"
+            case "absolute":
+                self.incremental = False
+            case "cancel":
+                self.cycle, self.motion = {}, ""
+            case "centre":
+                self.centre = [float(words[letter]) * self.scale for letter in "XY"]
+            case "ready" | "change":
+                self.wrong(number not in self.tools, f"T{number} is no tool of the job")
+                self.ready = number
+                if action == "change":
+                    self.wrong(
+                        bool(self.turn) or not self.up,
+                        "a tool is changed while the spindle turns, or not at the top",
+                    )
+                    self.by_hand = self.control == "grbl" and self.tool not in {0, number}
+                    self.tool, self.cycle, self.length = number, {}, number if self.klartext else 0
+                    self.rpm = float(words.get("S", self.rpm))
+            case "length" | "touched":
+                named = int(float(words.get("H", self.tool if float(words.get("D", "1")) == 1 else 0)))
+                self.wrong(
+                    not self.tool or named != self.tool, f"the length of another tool than T{self.tool}"
+                )
+                self.length = self.tool
+                if action == "length" and self.control != "grbl":
+                    self.unknown(self.motion != "G0", "a length that takes effect in a feed move")
+                    self.move("move", {"Z": words["Z"]})
+            case "machine" | "home":
+                self.machine_move(words, home=action == "home")
 
-    # What the rows of the tables do.
-
-    def _nothing(self, words: dict[str, str]) -> None:
-        pass
-
-    def _modes(self, words: dict[str, str]) -> None:
-        self.scale = 25.4 if words["units"] in {"G20", "G700", "INCH"} else 1.0
-        if not self.dialect.klartext:
-            self.motion, self.cycle, self.length, self.incremental = "", None, 0, False
-
-    def _preset(self, words: dict[str, str]) -> None:
-        self.offset = f"G{53 + int(float(words['N']))}"
-
-    def _corners(self, words: dict[str, str]) -> None:
-        self.off = float(words.get("P", words.get("T", "0"))) * (self.scale or 1.0)
-        if self.off > 0.05 or float(words.get("Q", "0")):
-            self._wrong("the control may leave the path by more than 0.05 mm")
-
-    def _offset(self, words: dict[str, str]) -> None:
-        self.offset = words["offset"]
-
-    def _start(self, words: dict[str, str]) -> None:
-        self.offset = words.get("offset", self.offset)
-        self.rpm, self.turn = float(words.get("S", self.rpm)), 1 if words["turn"] == "M3" else -1
-        if not (self.up and self.tool):
-            self._wrong("the spindle is started with the tool down, or without one")
-        if self.by_hand:
-            self._wrong(f"T{self.tool} is put in by hand, and the program does not stop for it")
-
-    def _stop(self, words: dict[str, str]) -> None:
-        self.turn = 0
-
-    def _coolant(self, words: dict[str, str]) -> None:
-        self.wet = words["coolant"] != "M9"
-
-    def _pause(self, words: dict[str, str]) -> None:
-        if self.turn or not self.up or self.wet:
-            self._wrong("stops for hands with the spindle turning, coolant running or the tool down")
-        self.stops += not self.by_hand
-        self.by_hand = False
-        self.length = 0 if self.control == "grbl" else self.length
-
-    def _end(self, words: dict[str, str]) -> None:
-        if self.turn or not self.up:
-            self._wrong("the program ends with the spindle turning or the tool down")
-        self.moves.ended = True
-
-    def _ready(self, words: dict[str, str]) -> None:
-        number = int(float(words.get("T", words.get("N", "0"))))
-        if number and number not in self.tools:
-            self._wrong(f"T{number} is no tool of the job")
-
-    def _select(self, words: dict[str, str]) -> None:
-        self._ready(words)
-        self.selected = int(float(words["T"]))
-
-    def _change(self, words: dict[str, str]) -> None:
-        number = int(float(words.get("T", words.get("N", self.selected))))
-        if number not in self.tools:
-            self._wrong(f"T{number} is no tool of the job")
-        if self.turn or not self.up:
-            self._wrong("a tool is changed with the spindle turning, or below the machine's upper end")
-        self.by_hand = self.control == "grbl" and self.tool not in {0, number}
-        self.tool, self.length, self.cycle = number, 0, None
-
-    def _call(self, words: dict[str, str]) -> None:
-        self._change(words)
-        self.length, self.rpm = self.tool, float(words["S"])
-
-    def _machine(self, words: dict[str, str]) -> None:
-        if self.cycle or float(words.get("D", "0")) or not self.scale:
-            self._unknown("a move in machine coordinates within a cycle, with an offset, or before the units")
-        for axis, letter in enumerate("XYZ"):
+    def machine_move(self, words: Words, home: bool) -> None:
+        """A rapid in machine coordinates, or to the reference of Z."""
+        odd = (
+            self.cycle
+            or not self.scale
+            or float(words.get("D", "0")) != 0
+            or (home and float(words["Z"]) != 0)
+        )
+        self.unknown(
+            bool(odd), "machine coordinates in a cycle, before the units, or by way of another place"
+        )
+        for axis, letter in enumerate("XYZ") if not home else ():
             if letter in words:
                 value, (low, high) = float(words[letter]) * self.scale, self.machine[letter.lower()]
-                if not low - 0.003 <= value <= high + 0.003:
-                    self._wrong(f"goes to machine {letter}{value:g}, which travels from {low:g} to {high:g}")
-                if letter == "Z" and value < self.machine["retract"] - RETRACT:
-                    self._wrong(f"machine Z{value:g} is no full retract")
-                if letter != "Z" and not self.up:
-                    self._wrong("moves in machine coordinates with the tool down")
-                self.place[axis] = math.nan
+                low = max(low, self.machine["retract"] - RETRACT) if letter == "Z" else low
+                beyond = not low - ROUNDED <= value <= high + ROUNDED
+                self.wrong(beyond, f"machine {letter}{value:g} is not within {low:g} to {high:g}")
+                self.wrong(letter != "Z" and not self.up, "moves in machine coordinates with the tool down")
+                self.place[axis] = self.place[axis] if letter == "Z" else math.nan
         if "Z" in words:
-            self._to_top()
-        self.motion = "G0"
+            if not self.up and not math.isnan(sum(self.place)):
+                self.add(0, [*self.place[:2], TOP])
+            self.up, self.place = True, [*self.place[:2], math.inf]
+        self.motion, self.incremental = ("", True) if home else ("G0", self.incremental)
+        self.length = 0 if home else self.length
 
-    def _home(self, words: dict[str, str]) -> None:
-        if float(words["Z"]) or self.cycle or not self.scale:
-            self._unknown("a reference point by way of another place")
-        self._to_top()
-        self.motion, self.incremental = "", True
+    def move(self, action: str, words: Words) -> None:
+        """A move in work coordinates."""
+        if self.cycle or action == "cycle":
+            self.unknown(
+                action != "cycle" and not set(words) <= {"X", "Y"}, "other words than a place in a cycle"
+            )
+            self.hole(words)
+            return
+        self.motion = {"rapid": "G0", "feed": "G1"}.get(action, words.pop("motion", self.motion))
+        if "turn" in words:
+            self.motion = "G3" if words["turn"] == "DR+" else "G2"
+        straight, lost, rise = (
+            self.motion in {"G0", "G1"},
+            math.isnan(sum(self.place)),
+            {"Z", "IZ"} & set(words),
+        )
+        stated = self.scale and self.offset and self.motion and self.tool and not self.incremental
+        self.wrong(not stated, "moves before units, work offset, G90, a motion word and a tool are stated")
+        self.unknown(not straight and lost, "an arc from a place that is not known")
+        self.unknown(straight and bool({"I", "J"} & set(words)), "a centre in a straight move")
+        self.unknown(self.motion == "G0" and "F" in words, "a feed in a rapid")
+        self.wrong(bool(rise) and self.length != self.tool, f"Z without the length of T{self.tool}")
+        end = [
+            float(words[a]) * self.scale if a in words else here
+            for a, here in zip("XYZ", self.place, strict=True)
+        ]
+        if "F" in words:
+            self.feed = float(words["F"]) * self.scale / (10 if self.klartext and self.scale > 1 else 1)
+        if straight:
+            if {"X", "Y", "Z"} & set(words):
+                self.add(self.motion == "G1", end)
+            return
+        if action == "move":
+            self.unknown(not {"I", "J"} <= set(words) or not {"X", "Y"} & set(words), "an arc without a word")
+            self.centre = [self.place[n] + float(words[letter]) * self.scale for n, letter in enumerate("IJ")]
+        self.unknown(not self.centre, "an arc without a centre")
+        way, (a, b) = 1 if self.motion == "G3" else -1, self.centre
+        x, y = self.place[0] - a, self.place[1] - b
+        if action == "helix":
+            turn = math.radians(float(words["IPA"]))
+            self.unknown(
+                not 0 < turn * way < math.tau + 1e-9, "an angle against its direction, or of more than a turn"
+            )
+            c, s = math.cos(turn), math.sin(turn)
+            end = [a + c * x - s * y, b + s * x + c * y, self.place[2] + float(words["IZ"]) * self.scale]
+        else:
+            turn = way * ((way * (math.atan2(end[1] - b, end[0] - a) - math.atan2(y, x))) % math.tau)
+            turn = way * math.tau if end[:2] == self.place[:2] else turn
+        apart = abs(math.hypot(x, y) - math.dist(end[:2], self.centre))
+        self.wrong(apart > ARC or math.hypot(x, y) < ARC, "the radii of an arc differ at its ends")
+        self.add(True, end, (a, b, turn))
 
-    def _absolute(self, words: dict[str, str]) -> None:
-        self.incremental = False
-
-    def _to_top(self) -> None:
-        x, y, z = self.place
-        if not math.isnan(x + y + z) and not self.up:
-            self._add(0, (x, y, 1000.0))
-        self.up, self.place[2] = True, math.inf
-
-    def _length(self, words: dict[str, str]) -> None:
-        number = int(float(words.get("H", self.tool if float(words.get("D", "0")) == 1 else 0)))
-        if number != self.tool or not number:
-            self._wrong(f"the length of another tool than T{self.tool}")
-        self._with_length(words)
-
-    _measured = _length
-
-    def _with_length(self, words: dict[str, str]) -> None:
-        self.length = self.tool
-        if self.motion != "G0":
-            self._unknown("a length that takes effect within a feed move")
-        self._move({"Z": words["Z"]})
-
-    def _touched(self, words: dict[str, str]) -> None:
-        self.length = self.tool
-
-    def _dwell(self, words: dict[str, str]) -> None:
-        pass
-
-    def _cancel(self, words: dict[str, str]) -> None:
-        self.cycle, self.motion = None, ""
-
-    def _rapid(self, words: dict[str, str]) -> None:
-        self._move({**words, "motion": "G0"})
-
-    def _feed(self, words: dict[str, str]) -> None:
-        self._move({**words, "motion": "G1"})
-
-    def _centre(self, words: dict[str, str]) -> None:
-        self.centre = [float(words[letter]) * self.scale for letter in "XY"]
-
-    def _arc(self, words: dict[str, str]) -> None:
-        if self.centre is None or math.isnan(sum(self.place)):
-            self._wrong("an arc without a centre, or from an unknown place")
-        middle = {letter: str((self.centre[n] - self.place[n]) / self.scale) for n, letter in enumerate("IJ")}
-        self._move({**words, **middle, "motion": "G3" if words["turn"] == "DR+" else "G2"})
-
-    def _helix(self, words: dict[str, str]) -> None:
-        angle, rise = math.radians(float(words["IPA"])), float(words["IZ"]) * self.scale
-        if self.centre is None or math.isnan(sum(self.place)):
-            self._wrong("an arc without a centre, or from an unknown place")
-        if angle * (1 if words["turn"] == "DR+" else -1) <= 0 or abs(angle) > math.tau + 1e-9:
-            self._unknown("an angle against its direction, or of more than a turn")
-        x, y = self.place[0] - self.centre[0], self.place[1] - self.centre[1]
-        c, s = math.cos(angle), math.sin(angle)
-        end = (self.centre[0] + c * x - s * y, self.centre[1] + s * x + c * y, self.place[2] + rise)
-        self._fed(words)
-        self._add(1, end, (*self.centre, angle))
-
-    def _fed(self, words: dict[str, str]) -> None:
-        """The feed of a move, and what it needs besides."""
-        self.feed = float(words.get("F", self.feed / (self.scale or 1))) * self.scale
-        if self.dialect.klartext and self.scale != 1.0 and "F" in words:
-            self.feed /= 10
-        if not (self.turn and self.rpm > 0 and self.feed > 0):
-            self._wrong("cuts without a turning spindle or a feed")
-        if math.isnan(self.off) and self.control in {"linuxcnc", "heidenhain-tnc"}:
-            self._unknown("cuts before the program says how far the control may leave the path")
-
-    def _move(self, words: dict[str, str]) -> None:
-        if self.cycle is not None:
-            if set(words) <= {"X", "Y"}:
-                self._hole(words)
-                return
-            self._unknown("other words than a place while a cycle is in force; write G80")
-        self.motion = words.get("motion", self.motion)
-        if not self.scale or not self.offset or self.incremental or not self.motion or not self.tool:
-            self._wrong("moves before units, work offset, G90, a motion word and a tool are stated")
-        if set(words) <= {"motion", "F"}:
+    def hole(self, words: Words) -> None:
+        """One hole of a cycle: over it, down to R, in to Z, and back to the height at which the cycle began."""
+        if "cycle" in words:
+            self.initial = self.initial if self.cycle else self.place[2]
+            self.cycle = words
             self.feed = float(words["F"]) * self.scale if "F" in words else self.feed
-            return
-        end = list(self.place)
-        for axis, letter in enumerate("XYZ"):
-            if letter in words:
-                end[axis] = float(words[letter]) * self.scale
-        if "Z" in words and self.length != self.tool:
-            self._wrong(f"a height before the length of T{self.tool} is in force")
-        if self.motion in {"G0", "G1"} and {"I", "J"} & set(words) or self.motion == "G0" and "F" in words:
-            self._unknown("a centre in a straight move, or a feed in a rapid one")
-        if self.motion == "G0":
-            self._add(0, end)
-            return
-        self._fed(words)
-        if self.motion == "G1":
-            self._add(1, end)
-            return
-        if not {"I", "J"} <= set(words) or math.isnan(sum(self.place)):
-            self._unknown("an arc without both I and J, or from an unknown place")
-        i, j = float(words["I"]) * self.scale, float(words["J"]) * self.scale
-        x, y = self.place[0] + i, self.place[1] + j
-        if abs(math.hypot(i, j) - math.dist(end[:2], (x, y))) > ARC or math.hypot(i, j) < 0.002:
-            self._wrong("the radii of an arc differ at its ends")
-        turn = math.atan2(end[1] - y, end[0] - x) - math.atan2(-j, -i)
-        turn = turn % math.tau if self.motion == "G3" else -(-turn % math.tau)
-        if end[:2] == self.place[:2]:
-            turn = math.tau if self.motion == "G3" else -math.tau
-        self._add(1, end, (x, y, turn))
-
-    def _cycle(self, words: dict[str, str]) -> None:
-        self.cycle, self.initial = words, self.place[2]
-        self._hole(words)
-
-    def _hole(self, words: dict[str, str]) -> None:
-        """One hole of the cycle in force: over it, down to R, in to Z, and back to where the cycle began."""
         said, size = self.cycle, self.scale
-        x, y = (float(words.get(a, "nan")) * size for a in "XY")
-        x, y = self.place[0] if math.isnan(x) else x, self.place[1] if math.isnan(y) else y
-        bottom, plane = float(said["Z"]) * size, float(said["R"]) * size
-        if math.isnan(x + y + self.initial) or math.isinf(self.initial) or not bottom < plane <= self.initial:
-            self._wrong("a cycle from an unknown place, or with R below its bottom or above its start")
-        if self.incremental or self.length != self.tool or not self.offset:
-            self._wrong("a cycle without G90, a work offset or the length of its tool")
-        self._fed(said if words is said else {})
-        self._add(0, (x, y, self.initial))
-        self._add(0, (x, y, plane))
-        step = float(said.get("Q", "inf")) * size
-        if not step > 0 or (plane - bottom) / step > 1000:
-            self._unknown("pecks of nothing, or more than 1000")
+        x, y = (
+            float(words[a]) * size if a in words else here for a, here in zip("XY", self.place, strict=False)
+        )
+        bottom, plane, step = (float(said.get(letter, "inf")) * size for letter in "ZRQ")
+        stated = size and self.offset and self.tool and self.length == self.tool and not self.incremental
+        self.wrong(not stated, "a cycle without units, work offset, G90 or the length of its tool")
+        self.wrong(
+            not bottom < plane <= self.initial < TOP, "R below the bottom, or above where the cycle begins"
+        )
+        self.unknown(not (plane - bottom) / 1000 < step, "more than 1000 pecks")
+        self.add(False, [x, y, self.initial])
+        self.add(False, [x, y, plane])
         depth = plane - step
         while depth > bottom:
-            self._add(1, (x, y, depth))
+            self.add(True, [x, y, depth])
             if said["cycle"] == "G83":
-                self._add(0, (x, y, plane))
-            self._add(0, (x, y, depth + self.dialect.gap))
+                self.add(False, [x, y, plane])
+            self.add(False, [x, y, depth + GAP.get(self.control, 0.254)])
             depth -= step
-        self._add(1, (x, y, bottom))
-        self._add(0, (x, y, self.initial))
+        self.add(True, [x, y, bottom])
+        self.add(False, [x, y, self.initial])
 
-    def _add(self, kind: int, end: Any, arc: tuple[float, ...] = (0.0, 0.0, 0.0)) -> None:
+    def add(self, fed: bool, end: list[float], arc: tuple[float, ...] = (0.0, 0.0, 0.0)) -> None:
         """A motion from the present place."""
-        start, self.place = self.place, list(end)
-        self.up = self.up and math.isinf(end[2])
-        if math.isinf(start[2]) and not math.isinf(end[2]):
-            start = [*start[:2], 1000.0]
-        if math.isnan(sum(end)) or math.isinf(end[2]):
-            if kind or not math.isinf(end[2]):
-                self._wrong("moves from or to a place that the program does not say")
+        start, self.place = self.place, end
+        if math.isinf(end[2]) and not fed:
             return
-        if math.isnan(sum(start)):
-            self._wrong("moves from a place that the program does not say")
-        if max(map(abs, end)) > 20_000 or len(self.moves.rows) >= MOST:
-            self._unknown("a place beyond 20 m, or too many moves")
-        if start != list(end) or arc[2]:
-            state = (self.tool, self.rpm * self.turn, self.feed if kind else 0.0, self.off)
-            self.moves.rows.append((self.line, kind, *start, *end, *arc, *state, self.number, self.stops))
+        if fed:
+            planned = self.tools[self.tool].raw.get("coolant")
+            self.wrong(
+                not (self.turn and self.rpm > 0 and self.feed > 0), "cuts without a turning spindle or a feed"
+            )
+            self.wrong(
+                planned is not None and (self.coolant or {"off"}) != {planned}, f"coolant is not {planned}"
+            )
+            loose = math.isnan(self.off) and self.control in {"linuxcnc", "heidenhain-tnc"}
+            self.unknown(loose, "cuts before the program says how far the control may leave the path")
+        start = [*start[:2], TOP] if math.isinf(start[2]) else start
+        self.up = self.up and end[2] >= TOP
+        self.wrong(
+            math.isnan(sum(start) + sum(end)), "moves from or to a place that the program does not say"
+        )
+        self.unknown(
+            max(map(abs, end)) > FAR or len(self.rows) >= MOST, "a place beyond 20 m, or too many moves"
+        )
+        if start != end or arc[2]:
+            state = (self.tool, self.rpm * self.turn, self.feed * fed, self.off, self.number, self.stops)
+            self.rows.append((self.line, fed, *start, *end, *arc, *state))
+
+
+def read(control: str, texts: dict[str, str], machine: dict[str, Any], tools: dict[int, Any]) -> np.ndarray:
+    """The moves (n, COLUMNS) that the words of a program's files give, run in their order."""
+    reader = Reader(control, machine, tools)
+    for number, (name, text) in enumerate(texts.items()):
+        reader.read(text, number, name if len(texts) > 1 else "")
+    moves = np.array(reader.rows, dtype=np.float64).reshape(-1, COLUMNS)
+    if not (moves[:, KIND] == 1).any():
+        raise Refuted("the program cuts nothing")
+    return moves
 
 
 def _order(word: str) -> tuple[int, float]:
     """Where a word stands in a row."""
-    letter = re.match("[A-Z]+", word)[0]
+    letter = word if word in ORDER else word[0]
     return ORDER.index(letter) if letter in ORDER else len(ORDER), float(word[1:]) if letter == "G" else 0.0

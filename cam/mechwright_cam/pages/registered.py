@@ -164,9 +164,7 @@ def setup_sheets(build: Build) -> dict[str, str]:
             probing="".join(machining.probing.get(name, ("",))[:1]),
             measuring=tuple(machining.measuring.get(name, ())),
         )
-    sheets = [
-        (item.job, item.program, seen.proofs[item.program.name]) for item in machining.proven_programs
-    ]
+    sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.proven_programs]
     written = build.wanted.command in BillOfMaterials.commands
     made[SUMMARY] = summary_html(
         sheets,

@@ -14,6 +14,7 @@ from mechwright_cam.controls.reading.run import Ints
 from mechwright_cam.machining import Machined
 from mechwright_cam.pages.certificate.rings import MICRONS, rings
 from mechwright_cam.proof.bands import bands
+from mechwright_cam.proof.entry_rules import steepest
 from mechwright_cam.proof.target_shape import TAB_SLACK, play
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import cutter
@@ -40,7 +41,7 @@ def certificate(
         "part": _part(job),
         "stock": [_um(edge) for edge in job.stock],
         "hold": _hold(job),
-        "tools": {str(tool.number): _tool(tool, job) for tool in item.program.tools},
+        "tools": {str(tool.number): _tool(tool, item) for tool in item.program.tools},
         "machine": _machine(job),
         "limits": _limits(job),
         "moves": _moves(item.scene.run),
@@ -100,10 +101,12 @@ def _hold(job: Job) -> dict[str, Any]:
     }
 
 
-def _tool(tool: Tool, job: Job) -> dict[str, Any]:
-    """A tool as a profile: its cone, shank and holder, with what its edges may bear."""
+def _tool(tool: Tool, item: Machined) -> dict[str, Any]:
+    """A tool as a profile: its cone and holder, with what its edges may bear."""
+    job = item.job
     shape, data = cutter(tool), tool.cutting.get(job.part.material)
     cone = float(shape.slope)
+    coolants = {section.tool.number: section.coolant for section in item.program.sections}
     return {
         "name": tool.name,
         "kind": str(tool.kind),
@@ -112,29 +115,35 @@ def _tool(tool: Tool, job: Job) -> dict[str, Any]:
         "slope": round(cone, 9) if np.isfinite(cone) else None,
         "flutes": tool.flutes,
         "flute_length": _um(tool.flute_length),
-        "shank": _um((tool.shank_diameter or tool.diameter) / 2),
         "stick_out": None if tool.stick_out is None else _um(tool.stick_out),
         "holder": _um(tool.holder_diameter / 2),
         "centre_cutting": tool.centre_cutting,
         "speed": None if data is None else data.cutting_speed,
         "chip": None if data is None else _um(data.chip_load),
         "step_down": None if data is None else data.step_down,
+        "plunge": None if data is None else data.plunge,
+        "ramp": steepest(tool, job.settings.ramp_angle),
+        "coolant": coolants[tool.number],
     }
 
 
 def _machine(job: Job) -> dict[str, Any]:
     """Both ends of each axis in machine coordinates, the travels, and where the work offset stands, if known."""
-    machine, measured = job.settings.machine, job.settings.measured
+    machine = job.settings.machine
     return {
         **{axis: [_um(end) for end in machine.ends(axis)] for axis in "xyz"},
-        "known": [axis for axis in "xyz" if getattr(machine, f"low_{axis}") is not None],
-        "travel": [_um(machine.travel_x), _um(machine.travel_y), _um(machine.travel_z)],
-        "zero": [None if place is None else _um(place) for place in (measured.x, measured.y, measured.z)],
+        "zero": [_zero(job, axis) for axis in "xyz"],
         "retract": _um(machine.retract_z),
         "max_feed": machine.max_feed,
         "spindle": [machine.spindle_min, machine.spindle_max],
         "work_offset": job.settings.work_offset,
     }
+
+
+def _zero(job: Job, axis: str) -> float | None:
+    """Where the work offset stands in an axis, if both are known, µm."""
+    place, low = getattr(job.settings.measured, axis), getattr(job.settings.machine, f"low_{axis}")
+    return None if place is None or low is None else _um(place)
 
 
 def _limits(job: Job) -> dict[str, float]:
@@ -162,7 +171,9 @@ def _moves(run: Run) -> dict[str, Any]:
     """The moves by columns: kind, line, end and centre; what changes seldom as pairs of a move and its value."""
     steps = moved(run)
     kind, sweep = run.kind[steps], run.sweep[steps]
-    letters = np.where(kind == Kind.RAPID, "r", np.where(kind == Kind.FEED, "l", np.where(sweep > 0, "a", "c")))
+    letters = np.where(
+        kind == Kind.RAPID, "r", np.where(kind == Kind.FEED, "l", np.where(sweep > 0, "a", "c"))
+    )
     end = np.round(run.end[steps] * MICRONS).astype(np.int64)
     arcs = run.kind[steps] == Kind.ARC
     centre = np.round(run.centre[steps][arcs] * MICRONS).astype(np.int64)
