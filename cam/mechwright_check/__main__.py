@@ -6,7 +6,7 @@ from pathlib import Path
 
 import shapely
 
-from mechwright_check import Refuted, Unknown, drawing
+from mechwright_check import RefutedError, UnknownError, drawing
 from mechwright_check.certificate import case_of, compare, load, texts_of
 from mechwright_check.checks import check_all
 
@@ -24,9 +24,9 @@ def main(arguments: list[str] | None = None) -> int:
     notes: list[str] = []
     try:
         code, said = 0, _checked(asked, notes)
-    except Refuted as error:
+    except RefutedError as error:
         code, said = 1, f"REFUTED: {error}"
-    except Unknown as error:
+    except UnknownError as error:
         code, said = 2, f"not checkable: {error}"
     except (MemoryError, RecursionError, shapely.errors.ShapelyError, ArithmeticError) as error:
         code, said = 2, f"not checkable: {type(error).__name__}"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright_check import Refuted, Unknown
+from mechwright_check import RefutedError, UnknownError
 from mechwright_check.checks import GOUGE, LEFTOVER, Case
 from mechwright_check.geometry import Cutter, polygons
 from mechwright_check.reading import CENTRE, END, FEED, FILE, KIND, LINE, RPM, START, SWEEP, TOOL, TOP, read
@@ -24,10 +24,10 @@ def content(path: Path) -> bytes:
     """The bytes of a file."""
     try:
         if path.stat().st_size > LARGEST:
-            raise Unknown(f"{path}: larger than {LARGEST // 1_000_000} MB")
+            raise UnknownError(f"{path}: larger than {LARGEST // 1_000_000} MB")
         return path.read_bytes()
     except (OSError, ValueError) as error:
-        raise Unknown(f"{path}: {error}") from None
+        raise UnknownError(f"{path}: {error}") from None
 
 
 def program(path: Path) -> str:
@@ -35,7 +35,7 @@ def program(path: Path) -> str:
     try:
         return content(path).decode("ascii")
     except UnicodeDecodeError:
-        raise Unknown(f"{path.name} has characters that are not ASCII") from None
+        raise UnknownError(f"{path.name} has characters that are not ASCII") from None
 
 
 def load(path: Path) -> dict[str, Any]:
@@ -45,11 +45,11 @@ def load(path: Path) -> dict[str, Any]:
         form, seal = found["format"], found.pop("seal")
         plain = json.dumps(found, sort_keys=True, separators=(",", ":"))
     except (ValueError, RecursionError, KeyError, TypeError, AttributeError):
-        raise Refuted(f"{path.name} is no whole certificate") from None
+        raise RefutedError(f"{path.name} is no whole certificate") from None
     if form != FORMAT:
-        raise Unknown(f"{path.name}: its form is {form!r:.40}; this is a checker of {FORMAT!r}")
+        raise UnknownError(f"{path.name}: its form is {form!r:.40}; this is a checker of {FORMAT!r}")
     if seal != hashlib.sha256(plain.encode()).hexdigest():
-        raise Refuted(f"{path.name} was changed after it was written: its seal is that of another text")
+        raise RefutedError(f"{path.name} was changed after it was written: its seal is that of another text")
     return dict(found)
 
 
@@ -62,29 +62,31 @@ def texts_of(found: dict[str, Any], folder: Path, more: list[Path], notes: list[
         if file["what"] != "program" and not path.exists():
             notes.append(f"{name} ({file['what']}) is not beside the certificate and was not compared")
         elif hashlib.sha256(content(path)).hexdigest() != file["sha256"]:
-            raise Refuted(f"{name} is not the {file['what']} that the certificate is of: its hash is another")
+            raise RefutedError(
+                f"{name} is not the {file['what']} that the certificate is of: its hash is another"
+            )
     if given:
-        raise Refuted(f"the certificate says nothing of {', '.join(given)}")
+        raise RefutedError(f"the certificate says nothing of {', '.join(given)}")
     return {file["name"]: program(folder / Path(file["name"]).name) for file in found["files"]}
 
 
 def case_of(found: dict[str, Any], texts: dict[str, str], notes: list[str]) -> Case:
     """The job of a certificate, with the moves that the words of the program give."""
     if found["unchecked"]:
-        raise Unknown("the certificate does not hold " + ", ".join(found["unchecked"]))
+        raise UnknownError("the certificate does not hold " + ", ".join(found["unchecked"]))
     part, hold, limits = (
         found["part"],
         found["hold"],
         {key: value / 1000 for key, value in found["limits"].items()},
     )
     if limits["gouge"] > GOUGE or limits["leftover"] > LEFTOVER or not 0 <= limits["play"] <= 0.05:
-        raise Refuted("the certificate allows deeper cuts or thicker stock than the checker")
+        raise RefutedError("the certificate allows deeper cuts or thicker stock than the checker")
     shapes, thickness = [polygons(rings) for rings in part["sections"]], part["thickness"] / 1000
     levels = [(top / 1000, bottom / 1000, shapes[number]) for top, bottom, number in part["levels"]]
     heights = [0.0, *(bottom for _, bottom, _ in levels)]
     joined = all(level[0] == height > level[1] for level, height in zip(levels, heights, strict=False))
     if not joined or heights[-1] != -thickness or not 0 <= -thickness - limits["lowest"] <= 5.001:
-        raise Refuted("the levels of the certificate do not fill the thickness of its part")
+        raise RefutedError("the levels of the certificate do not fill the thickness of its part")
     machine = {
         **found["machine"],
         "zero": [None if z is None else z / 1000 for z in found["machine"]["zero"]],
@@ -107,7 +109,7 @@ def cutter(tool: dict[str, Any]) -> Cutter:
     """A tool of a certificate."""
     radius, tip, slope = tool["radius"] / 1000, tool["tip"] / 1000, tool["slope"] or 0.0
     if not (0 < radius < 200 and 0 <= tip <= radius and slope >= 0 and (slope or tip == radius)):
-        raise Refuted("a tool of the certificate has no shape")
+        raise RefutedError("a tool of the certificate has no shape")
     return Cutter(tool["kind"], radius, tip, slope, tool)
 
 
@@ -118,7 +120,7 @@ def compare(case: Case, claimed: dict[str, Any]) -> None:
     index = np.flatnonzero(goes & (every[:, END][:, 2] < TOP))
     moves = every[index]
     if len(moves) != len(kind):
-        raise Refuted(f"the certificate claims {len(kind)} moves, and the program makes {len(moves)}")
+        raise RefutedError(f"the certificate claims {len(kind)} moves, and the program makes {len(moves)}")
     bent, turn = moves[:, SWEEP] != 0, np.where(moves[:, SWEEP] > 0, "a", "c")
     wrong = np.where(bent, turn, np.where(moves[:, KIND] == 0, "r", "l")) != kind
     wrong |= moves[:, LINE] != np.cumsum(claimed["line"])

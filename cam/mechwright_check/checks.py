@@ -1,4 +1,4 @@
-"""What a program does to the part: each check raises Refuted with the line, or adds a note."""
+"""What a program does to the part: each check raises RefutedError with the line, or adds a note."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,16 +7,15 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright_check import Refuted, Unknown
-from mechwright_check.geometry import SAG, Chords, Cutter, nearest, uncovered
+from mechwright_check import RefutedError, UnknownError
+from mechwright_check.geometry import COARSE, SAG, Chords, Cutter, nearest, uncovered
 from mechwright_check.reading import END, FEED, FILE, KIND, LINE, OFF, RPM, START, STOPS, TOOL, TOP
 
 GOUGE, LEFTOVER, UNEVEN = 0.005, 0.010, 0.2
 """Deepest cut into the part, thickest stock on a wall or floor, least height of a rapid's end above stock."""
 MILLS, WALLS = {"end-mill"}, {"end-mill", "drill", "reamer"}
-HARDER, THIN, LASTING = 1.5, 3.0, 2.0
-"""Speeds, depths, and feeds of drills may be so many times the tool library's, feeds of mills so many times; a
-cut that is too deep for so many diameters on end is one."""
+HARDER, LASTING = 1.5, 2.0
+"""Speeds, depths and feeds may be so many times the library's; a cut that is too deep is so for so many diameters."""
 BESIDE = 3.0
 """A cut may go so many diameters, and so many mm, beside the plate."""
 
@@ -41,10 +40,14 @@ class Case:
         return Chords.of(self.moves)
 
     @cached_property
+    def coarse(self) -> Chords:
+        """All motions, for what need not be exact."""
+        return Chords.of(self.moves, COARSE)
+
+    @cached_property
     def cuts(self) -> tuple[np.ndarray, Any]:
-        """The chords that cut, by their places among all, and a tree of their lines."""
-        places = np.flatnonzero(self.chords.fed & (self.chords.low < 0))
-        return places, shapely.STRtree(self.chords.only(places).lines())
+        """Those of them that cut, as :func:`_cuts` gives them."""
+        return _cuts(self.coarse)
 
     @cached_property
     def widest(self) -> float:
@@ -58,7 +61,7 @@ class Case:
             row = self.moves[found[0]]
             file = f"{self.files[int(row[FILE])]}: " if len(self.files) > 1 else ""
             place = " ".join(f"{axis}{value:.3f}" for axis, value in zip("XYZ", row[END], strict=True))
-            raise Refuted(f"{file}line {row[LINE]:.0f}: {why}, at {place}")
+            raise RefutedError(f"{file}line {row[LINE]:.0f}: {why}, at {place}")
 
     def stock_at(self, points: np.ndarray, level: np.ndarray, before: np.ndarray) -> np.ndarray:
         """Whether (n,) at points above levels something is left by the chords before some."""
@@ -67,17 +70,23 @@ class Case:
         chord = places[cut]
         early = chord < before[point]
         point, chord = point[early], chord[early]
-        away, z = nearest(points[point], self.chords.a[chord], self.chords.b[chord])
-        tools = self.chords.tool[chord]
-        own, height = tools == self.chords.tool[before[point]], level[point] + 0.001 - z
+        away, z = nearest(points[point], self.coarse.a[chord], self.coarse.b[chord])
+        tools = self.coarse.tool[chord]
+        own, height = tools == self.coarse.tool[before[point]], level[point] + 0.001 - z
         wide = np.zeros(len(point))
         for number in np.unique(tools).tolist():
             mine = tools == number
             wide[mine] = np.where(own, TOP, height)[mine]
             wide[mine] = self.tools[number].at(wide[mine])
         left = shapely.contains_xy(self.plate, points[:, 0], points[:, 1])
-        left[point[(away <= wide) & (height >= 0)]] = False
-        return left
+        left[point[(away <= wide + COARSE) & (height >= 0)]] = False
+        return np.asarray(left)
+
+
+def _cuts(chords: Chords) -> tuple[np.ndarray, Any]:
+    """The chords that cut, by their places among all, and a tree of their lines."""
+    places = np.flatnonzero(chords.fed & (chords.low < 0))
+    return places, shapely.STRtree(chords.only(places).lines())
 
 
 def check_all(case: Case) -> None:
@@ -112,8 +121,8 @@ def limits(case: Case) -> None:
         )
         out = tool.raw["stick_out"]
         if out is not None and (mine & (low + out / 1000 < 0)).any():
-            raise Unknown(f"the holder of T{number} goes below the top of the plate")
-    cut = case.chords.only(case.cuts[0])
+            raise UnknownError(f"the holder of T{number} goes below the top of the plate")
+    cut = case.coarse.only(case.cuts[0])
     beside = shapely.distance(case.plate, cut.lines()) > 2 * BESIDE * cut.radii(case.tools, TOP) + BESIDE
     case.refuse(beside, "cuts far outside of the plate", cut.move)
 
@@ -142,7 +151,7 @@ def rates(case: Case) -> None:
 
 def loads(case: Case) -> None:
     """Where stock is left on the line of their axis, mills go no deeper, faster or steeper than edges bear."""
-    every = case.chords
+    every = case.coarse
     flat, drop = np.hypot(*(every.b - every.a)[:, :2].T), (every.a - every.b)[:, 2]
     tooth = case.moves[every.move, FEED] / (np.abs(case.moves[every.move, RPM]) + 1e-9)
     for number, tool in case.tools.items():
@@ -152,10 +161,9 @@ def loads(case: Case) -> None:
         mill, low, chip = tool.kind in MILLS, every.low[mine], data["chip"] / 1000 * data["flutes"]
         down, steep = flat[mine] < 1e-6, drop[mine] > flat[mine] * np.tan(np.radians(data["ramp"])) + 0.003
         slow = data["centre_cutting"] & (tooth[mine] <= HARDER * chip * data["plunge"] + 0.001)
-        most = np.where((down & (drop[mine] > 0)) | (not mill), HARDER, THIN) * chip + 0.001
         deep = low + HARDER * data["step_down"] * 2 * tool.radius
         for which, level, least, why in (
-            (tooth[mine] > most, low, 0.0, "is fed much faster than its edges bear"),
+            (tooth[mine] > HARDER * chip + 0.001, low, 0.0, "is fed much faster than its edges bear"),
             (steep & ~slow & mill, low, 0.0, "goes down more steeply or faster than it can"),
             (
                 (deep < -1e-6) & mill,
@@ -206,7 +214,7 @@ def _meet(case: Case, chords: Chords, shape: Any, top: float, limit: float, what
 
 def rapids(case: Case) -> None:
     """Rapids go above the stock, or where earlier cuts have left nothing."""
-    every, (places, tree) = case.chords, case.cuts
+    every, (places, tree) = case.chords, _cuts(case.chords)
     flat = np.hypot(*(every.b - every.a)[:, :2].T)
     rising = (flat < 1e-6) & (every.b[:, 2] > every.a[:, 2])
     free: set[Any] = set()
@@ -243,7 +251,7 @@ def leftover(case: Case) -> None:
         tool.radius for tool in mills if -case.limits["lowest"] <= tool.raw["flute_length"] / 1000 + 1e-6
     ]
     if mills and not through:
-        raise Unknown("no mill of the program cuts through the plate")
+        raise UnknownError("no mill of the program cuts through the plate")
     radius, widest = (
         min(through, default=0.0) + case.limits["play"],
         max((tool.radius for tool in mills), default=0.0),
@@ -268,7 +276,9 @@ def leftover(case: Case) -> None:
         left = uncovered(walls, cut, cut.radii(case.tools, bottom + SAG))
         if len(left):
             x, y = left[0].mean(axis=0)
-            raise Refuted(f"more than {LEFTOVER} mm are left on a wall at X{x:.3f} Y{y:.3f} Z{bottom:.3f}")
+            raise RefutedError(
+                f"more than {LEFTOVER} mm are left on a wall at X{x:.3f} Y{y:.3f} Z{bottom:.3f}"
+            )
         rest = shapely.area(shapely.difference(closed.buffer(-radius, **fine), shape))
         if rest > 0.1:
             case.notes.append(f"{rest:.2f} mm² at Z{bottom:.3f} are out of reach of the mills")
@@ -295,7 +305,7 @@ def floors(case: Case) -> None:
             left = shapely.difference(shapely.difference(floor, corners), gone).buffer(-LEFTOVER / 2)
             if not shapely.is_empty(left):
                 x, y = left.representative_point().coords[0]
-                raise Refuted(f"the floor is not cut at X{x:.3f} Y{y:.3f} Z{bottom:.3f}")
+                raise RefutedError(f"the floor is not cut at X{x:.3f} Y{y:.3f} Z{bottom:.3f}")
 
 
 def holding(case: Case) -> None:
@@ -303,15 +313,15 @@ def holding(case: Case) -> None:
     if case.hold["method"] != "tabs":
         return
     bottom = case.levels[-1][1]
-    low = case.chords.only(case.chords.fed).below(bottom + SAG)
+    low = case.coarse.only(case.coarse.fed).below(bottom + SAG)
     gone = shapely.buffer(low.lines(), low.radii(case.tools, bottom + SAG), quad_segs=16)
     rim = shapely.boundary(case.plate).buffer(0.05)
     for piece in shapely.get_parts(case.levels[-1][2]):
         outer = shapely.Polygon(piece.exterior)
-        free = shapely.union_all(gone[shapely.dwithin(outer, gone, 0.1)])
+        free = shapely.union_all(gone[shapely.dwithin(shapely.boundary(outer), gone, 0.1)])
         frame = shapely.get_parts(shapely.difference(case.plate, shapely.union(free, outer)))
         frame = frame[shapely.intersects(frame, rim)]
         tabs = [tab for _, tab in case.hold["tabs"] if shapely.intersects(tab, piece)]
         held = sum(bool(shapely.intersects(tab, frame).any()) for tab in tabs)
         if held < 2 and shapely.intersects(free, shapely.boundary(outer.buffer(0.1))):
-            raise Refuted(f"a piece of the part is held by {held} tabs that reach the frame; 2 at least")
+            raise RefutedError(f"a piece of the part is held by {held} tabs that reach the frame; 2 at least")

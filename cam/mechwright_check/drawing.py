@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright_check import Refuted, Unknown
+from mechwright_check import RefutedError, UnknownError
 from mechwright_check.certificate import content, cutter, program
 from mechwright_check.checks import GOUGE, Case
 from mechwright_check.geometry import SAG
@@ -31,7 +31,7 @@ def levels_of(path: Path, thickness: float) -> list[tuple[float, float, Any]]:
         import ezdxf
         import ezdxf.path
     except ImportError:
-        raise Unknown("drawings need ezdxf: pip install 'mechwright-check[dxf]'") from None
+        raise UnknownError("drawings need ezdxf: pip install 'mechwright-check[dxf]'") from None
     content(path)
     curves: dict[str, list[Any]] = {}
     try:
@@ -41,14 +41,14 @@ def levels_of(path: Path, thickness: float) -> list[tuple[float, float, Any]]:
                 line = ezdxf.path.make_path(entity).flattening(SAG)
                 curves.setdefault(layer, []).append(np.array([(p.x, p.y) for p in line]))
         if document.units not in {0, 4}:
-            raise Unknown(f"{path.name}: its units are not millimetres")
+            raise UnknownError(f"{path.name}: its units are not millimetres")
     except (OSError, ezdxf.DXFError, TypeError, ValueError, AttributeError, LookupError) as error:
-        raise Unknown(f"{path.name}: cannot be read as a drawing ({type(error).__name__})") from None
+        raise UnknownError(f"{path.name}: cannot be read as a drawing ({type(error).__name__})") from None
     through, recesses = [], []
     for layer, lines in curves.items():
         recess = RECESS.fullmatch(layer)
         if not (recess or THROUGH.fullmatch(layer)):
-            raise Unknown(f"{path.name}: the layer {layer!r:.40} has no meaning here")
+            raise UnknownError(f"{path.name}: the layer {layer!r:.40} has no meaning here")
         through += [] if recess else _contours(lines, path)
         for shape in _contours(lines, path) if recess else ():
             recesses.append((float(recess[2] or 0), min(float(recess[1]), thickness), shape))
@@ -71,7 +71,7 @@ def _contours(lines: list[Any], path: Path) -> list[Any]:
             known.append(line[end].copy())
     merged = shapely.get_parts(shapely.line_merge(shapely.MultiLineString(lines)))
     if not all(line.is_closed and len(line.coords) > 3 for line in merged):
-        raise Unknown(f"{path.name}: a contour is not closed")
+        raise UnknownError(f"{path.name}: a contour is not closed")
     return [shapely.Polygon(line) for line in merged]
 
 
@@ -87,7 +87,7 @@ def compare(case: Case, origin: list[float], path: Path) -> None:
             apart = shapely.difference(one, other.buffer(GOUGE))
             if apart.area > SAG**2:
                 x, y = apart.representative_point().coords[0]
-                raise Refuted(
+                raise RefutedError(
                     f"the certificate's part is not that of {path.name} at X{x:.3f} Y{y:.3f} Z{middle:.3f}"
                 )
 
@@ -108,7 +108,7 @@ def case_of(asked: argparse.Namespace, notes: list[str]) -> Case:
         tools = dict(_tool(*re.split("[=:]", text)) for text in asked.tools.split(","))
         levels = levels_of(asked.dxf, asked.thickness + 0.0)
     except (ValueError, TypeError, AttributeError):
-        raise Unknown(
+        raise UnknownError(
             "a program without a certificate needs --dxf, --control, --thickness, --tools, --stock"
         ) from None
     far = [-1e4, 1e4]

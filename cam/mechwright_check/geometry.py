@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 import shapely
 
-from mechwright_check import Refuted, Unknown
+from mechwright_check import RefutedError, UnknownError
 from mechwright_check.reading import CENTRE, END, KIND, START, SWEEP, TOOL
 
 SAG = 0.0003
 """Chords of arcs are so far off at most, mm; it is added to what a limit allows, against the program."""
 SHORTEST, LONGEST = 0.002, 1.0
 """Stretches of a wall are so long at first, and halved down to where they are held or so short, mm."""
+COARSE = 0.02
+"""And so far where only the load of a tool and what hangs together are asked."""
 MOST = 3_000_000
 """Chords of a program, or corners of a part."""
 
@@ -47,7 +49,7 @@ def polygons(rings: Any) -> Any:
             found[-1][1].append(points)
     shape = shapely.MultiPolygon(found)
     if not shapely.is_valid(shape) or not np.isfinite(shapely.get_coordinates(shape)).all():
-        raise Refuted("the certificate has an outline that crosses itself")
+        raise RefutedError("the certificate has an outline that crosses itself")
     return shape
 
 
@@ -65,18 +67,18 @@ def _corners(ends: np.ndarray, ring: Any) -> np.ndarray:
     return np.array(points)
 
 
-def arc_points(a: np.ndarray, b: np.ndarray, c: np.ndarray, angle: float) -> np.ndarray:
+def arc_points(a: np.ndarray, b: np.ndarray, c: np.ndarray, angle: float, sag: float = SAG) -> np.ndarray:
     """Points (n, 2 or 3) along an arc or helix about c; a small difference of the radii is spread along it."""
     first, last = np.hypot(*(a - c)[:2]), np.hypot(*(b - c)[:2])
-    count = abs(angle) / (2 * np.arccos(max(1 - SAG / max(first, last, SAG), -1.0))) + 2
+    count = abs(angle) / (2 * np.arccos(max(1 - sag / max(first, last, sag), -1.0))) + 2
     if not count < MOST / 100:
-        raise Unknown("an arc of a radius that is too large")
+        raise UnknownError("an arc of a radius that is too large")
     share = np.linspace(0, 1, int(count))
     turned, reach = np.arctan2(*(a - c)[1::-1]) + angle * share, first + (last - first) * share
     out = a + (b - a) * share[:, None]
     out[:, :2] = c[:2] + np.column_stack((reach * np.cos(turned), reach * np.sin(turned)))
     out[-1] = b
-    return out
+    return np.asarray(out)
 
 
 @dataclass(frozen=True)
@@ -90,19 +92,19 @@ class Chords:
     fed: np.ndarray
 
     @classmethod
-    def of(cls, moves: np.ndarray) -> "Chords":
-        """The chords of moves, in their order."""
+    def of(cls, moves: np.ndarray, sag: float = SAG) -> "Chords":
+        """The chords of moves, in their order, at most ``sag`` off."""
         bent = np.flatnonzero(moves[:, SWEEP])
         straight = np.flatnonzero(moves[:, SWEEP] == 0)
         every, owner = [np.hstack((moves[straight, START], moves[straight, END]))], [straight]
         for place in bent.tolist():
             row = moves[place]
-            points = arc_points(row[START], row[END], np.append(row[CENTRE], 0.0), row[SWEEP])
+            points = arc_points(row[START], row[END], np.append(row[CENTRE], 0.0), row[SWEEP], sag)
             every.append(np.hstack((points[:-1], points[1:])))
             owner.append(np.full(len(points) - 1, place))
         ends, of = np.concatenate(every), np.concatenate(owner)
         if len(of) > MOST:
-            raise Unknown("too many chords")
+            raise UnknownError("too many chords")
         order = np.argsort(of, kind="stable")
         ends, of = ends[order], of[order]
         return cls(ends[:, :3], ends[:, 3:], of, moves[of, TOOL].astype(int), moves[of, KIND] == 1)
@@ -114,7 +116,7 @@ class Chords:
     @property
     def low(self) -> np.ndarray:
         """Their lower ends (n,)."""
-        return np.minimum(self.a[:, 2], self.b[:, 2])
+        return np.asarray(np.minimum(self.a[:, 2], self.b[:, 2]))
 
     def below(self, height: float) -> "Chords":
         """Their parts below a height: each piece in plan view once, at its lowest."""
@@ -134,7 +136,7 @@ class Chords:
         found = shapely.linestrings(np.stack((self.a[:, :2], self.b[:, :2]), axis=1))
         still = (self.a[:, :2] == self.b[:, :2]).all(axis=1)
         found[still] = shapely.points(self.a[still, :2])
-        return found
+        return np.asarray(found)
 
     def radii(self, tools: dict[int, Cutter], height: float) -> np.ndarray:
         """How wide (n,) their tools are at a height."""
@@ -148,9 +150,11 @@ class Chords:
 def nearest(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Distance (n,) of points (n, 2) from chords in plan view, and z of the chords there."""
     along = (b - a)[:, :2]
-    share = ((points - a[:, :2]) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-18)
+    square = (along**2).sum(axis=1)
+    share = ((points - a[:, :2]) * along).sum(axis=1) / np.maximum(square, 1e-18)
     at = a + (b - a) * np.clip(share, 0.0, 1.0)[:, None]
-    return np.hypot(*(at[:, :2] - points).T), at[:, 2]
+    low = np.minimum(a[:, 2], b[:, 2])  # of one that goes straight down
+    return np.hypot(*(at[:, :2] - points).T), np.where(square > 0, at[:, 2], low)
 
 
 def uncovered(walls: Any, chords: Chords, radii: np.ndarray) -> np.ndarray:

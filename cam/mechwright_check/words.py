@@ -16,20 +16,15 @@ ALL = (
     ("stop", "M5"),
     ("coolant", "coolant:M7|M8|M9"),
     ("pause", "stop:M0|M1"),
-    ("end", "end:M2|M30"),
+    ("end", "M2|M30"),
 )
 GCODE = (
     *ALL,
-    ("move", "motion:G0|G1|G2|G3 [X#] [Y#] [Z#] [I#] [J#] [F#]"),
-    ("move", "[X#] [Y#] [Z#] [I#] [J#] [F#]"),
+    ("move", "[motion:G0|G1|G2|G3] [X#] [Y#] [Z#] [I#] [J#] [F#]"),
     ("offset", OFFSETS),
     ("start", f"[{OFFSETS}] turn:M3|M4 S#"),
 )
-RS274 = (
-    *GCODE,
-    ("nothing", "G4 P#"),
-    ("cancel", "G80"),
-)
+RS274 = (*GCODE, ("nothing", "G4 P#"), ("cancel", "G80"))
 MACHINE = ("machine", "G0 G53 [X#] [Y#] [Z#]")
 MODES = ("modes", "G17 units:G20|G21 G40 G49 G80 G90 G91.1 G94")
 CHANGER = (
@@ -41,8 +36,6 @@ CHANGER = (
     ("cycle", "cycle:G82 G98 X# Y# Z# R# P# [F#]"),
     ("cycle", "cycle:G73|G83 G98 X# Y# Z# R# Q# [F#]"),
 )
-LINUXCNC = (*CHANGER, MACHINE, MODES, ("corners", "G64 Q# P#"), ("corners", "G61"))
-MACH3 = (*CHANGER, MACHINE, MODES, ("nothing", "G61|G64"))
 FANUC = (
     *CHANGER,
     ("modes", "G17 units:G20|G21 G40 G49 G80 G90 G94"),
@@ -50,8 +43,6 @@ FANUC = (
     ("absolute", "G90"),
     ("nothing", "G61|G64"),
 )
-HAAS = (*FANUC, MACHINE)
-GRBL = (*RS274, MACHINE, MODES, ("change", "T#"), ("touched", "G49"), ("length", "[G0] G43.1 Z#"))
 SIEMENS = (
     *GCODE,
     ("nothing", "G60|G64"),
@@ -81,6 +72,17 @@ KLARTEXT = (
     ("change", "TOOL CALL N# Z S#"),
     ("ready", "TOOL DEF N#"),
 )
+ROWS = {
+    "linuxcnc": (*CHANGER, MACHINE, MODES, ("corners", "G64 Q# P#"), ("corners", "G61")),
+    "mach3": (*CHANGER, MACHINE, MODES, ("nothing", "G61|G64")),
+    "fanuc": FANUC,
+    "haas": (*FANUC, MACHINE),
+    "grbl": (*RS274, MACHINE, MODES, ("change", "T#"), ("touched", "G49"), ("length", "[G0] G43.1 Z#")),
+    "siemens-840d": SIEMENS,
+    "heidenhain-tnc": KLARTEXT,
+}
+POINTS, GAP = {"fanuc", "haas"}, {"fanuc": 1.0, "haas": 1.27}
+"""Where a length without a point is another one; height above the last peck at which a cycle feeds again, or 0.254."""
 
 
 def pattern(row: str) -> re.Pattern[str]:
@@ -96,18 +98,3 @@ def pattern(row: str) -> re.Pattern[str]:
         found = f"(?P<{name}>{'|'.join(words)})" if name else f"(?:{'|'.join(words)})"
         terms.append(f"(?:{found} )?" if term.startswith("[") else f"{found} ")
     return re.compile("".join(terms))
-
-
-ROWS = {
-    "linuxcnc": LINUXCNC,
-    "fanuc": FANUC,
-    "haas": HAAS,
-    "mach3": MACH3,
-    "grbl": GRBL,
-    "siemens-840d": SIEMENS,
-    "heidenhain-tnc": KLARTEXT,
-}
-POINTS = {"fanuc", "haas"}
-"""Controls on which a length without a point is another one."""
-GAP = {"fanuc": 1.0, "haas": 1.27}
-"""Height above the last peck at which the next is fed; 0.254 elsewhere."""
