@@ -197,6 +197,7 @@ def test_a_build_is_complete_and_the_same_every_time(
             "gear.nc",
             "tool.tbl",
             "proof.json",
+            "gear.certificate.json",
             "gear.setup.html",
             "gear.job.html",
             "setup.html",

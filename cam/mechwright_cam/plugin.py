@@ -17,6 +17,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.inspection import InHand, Machinable, Proven, Running
     from mechwright_cam.pages.as_made import AsMadeFiles
     from mechwright_cam.pages.blanks import MilledPlates
+    from mechwright_cam.pages.certificate import Certificates
     from mechwright_cam.pages.registered import DrawingFiles, JobPages, ProgramFiles, ProofFile, SetupSheets
     from mechwright_cam.proof.rules import BUILT_IN
     from mechwright_cam.results import Minutes, Programs
@@ -24,7 +25,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.shop.table import CamTable
 
     controls = [LinuxCnc, Fanuc, Haas, Mach3, Grbl, Siemens840D, HeidenhainTnc]
-    pages = [DrawingFiles, ProgramFiles, ProofFile, SetupSheets, JobPages, AsMadeFiles]
+    pages = [DrawingFiles, ProgramFiles, ProofFile, SetupSheets, JobPages, Certificates, AsMadeFiles]
     return [
         *controls,
         *BUILT_IN,

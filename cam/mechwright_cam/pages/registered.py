@@ -52,11 +52,16 @@ class DrawingFiles(Page):
 
     def files(self, build: Build) -> dict[str, bytes]:
         """DXF by part; none where nothing is milled."""
-        machining = _machining(build)
-        drawing = DxfExporter(curve_kind(build.wanted.curves))
-        parts = [*machining.plates, *machining.nests] if machining.proven_programs else []
-        made = ((part.name + drawing.suffix, drawing.part(part)) for part in parts)
-        return distinct_files((name, content) for name, content in made if content is not None)
+        return build.made_as_wanted(drawings)
+
+
+def drawings(build: Build) -> dict[str, bytes]:
+    """The drawings of a build with programs, by file."""
+    machining = _machining(build)
+    drawing = DxfExporter(curve_kind(build.wanted.curves))
+    parts = [*machining.plates, *machining.nests] if machining.proven_programs else []
+    made = ((part.name + drawing.suffix, drawing.part(part)) for part in parts)
+    return distinct_files((name, content) for name, content in made if content is not None)
 
 
 class ProgramFiles(Page):
@@ -127,50 +132,53 @@ class SetupSheets(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """HTML by file."""
-        from mechwright_cam.pages.job import JOB
-        from mechwright_cam.pages.seen import Seen
-        from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
-        from mechwright_cam.pages.setup_sheet.raster import simulated_view
-        from mechwright_cam.pages.setup_sheet.walls import walls_view
+        return build.made_as_wanted(setup_sheets)
 
-        machining, seen = _machining(build), build.made(Seen)
-        if not machining.proven_programs:
-            return {}
-        control, table, design = machining.control, machining.table[0], build.path.name
-        files = {item.program.name: list(item.files) for item in machining.proven_programs}
-        made = {}
-        for item, simulation, walls in seen.measured:
-            name = item.program.name
-            made[name + SHEET] = setup_html(
-                item.job,
-                item.program,
-                seen.proofs[name],
-                control,
-                tool_table=table,
-                design=design,
-                picture=simulated_view(simulation, item.job),
-                deviation=walls_view(walls, item.job),
-                summary=SUMMARY,
-                files=files[name],
-                probing="".join(machining.probing.get(name, ("",))[:1]),
-                measuring=tuple(machining.measuring.get(name, ())),
-                played=name + JOB,
-            )
-        sheets = [
-            (item.job, item.program, seen.proofs[item.program.name]) for item in machining.proven_programs
-        ]
-        written = build.wanted.command in BillOfMaterials.commands
-        made[SUMMARY] = summary_html(
-            sheets,
+
+def setup_sheets(build: Build) -> dict[str, str]:
+    """The setup sheets of a build, and the page of the whole job, by file."""
+    from mechwright_cam.pages.job import JOB
+    from mechwright_cam.pages.seen import Seen
+    from mechwright_cam.pages.setup_sheet import SHEET, setup_html, summary_html
+    from mechwright_cam.pages.setup_sheet.raster import simulated_view
+    from mechwright_cam.pages.setup_sheet.walls import walls_view
+
+    machining, seen = _machining(build), build.made(Seen)
+    if not machining.proven_programs:
+        return {}
+    control, table, design = machining.control, machining.table[0], build.path.name
+    files = {item.program.name: list(item.files) for item in machining.proven_programs}
+    made = {}
+    for item, simulation, walls in seen.measured:
+        name = item.program.name
+        made[name + SHEET] = setup_html(
+            item.job,
+            item.program,
+            seen.proofs[name],
             control,
-            name=build.design.name,
             tool_table=table,
             design=design,
-            files=files,
-            bill=BILL if written else "",
-            guide=GUIDE if AssemblyGuide().shown(build) else "",
+            picture=simulated_view(simulation, item.job),
+            deviation=walls_view(walls, item.job),
+            summary=SUMMARY,
+            files=files[name],
+            probing="".join(machining.probing.get(name, ("",))[:1]),
+            measuring=tuple(machining.measuring.get(name, ())),
+            played=name + JOB,
         )
-        return made
+    sheets = [(item.job, item.program, seen.proofs[item.program.name]) for item in machining.proven_programs]
+    written = build.wanted.command in BillOfMaterials.commands
+    made[SUMMARY] = summary_html(
+        sheets,
+        control,
+        name=build.design.name,
+        tool_table=table,
+        design=design,
+        files=files,
+        bill=BILL if written else "",
+        guide=GUIDE if AssemblyGuide().shown(build) else "",
+    )
+    return made
 
 
 class JobPages(Page):
