@@ -51,6 +51,7 @@ class HeidenhainTnc(GcodeControl):
         arc_absolute=0.016,  # the machine parameter of circles allows no more
         arc_relative=0.0,
         arc_chord=0.0,
+        arc_turns=True,  # of a helix by IPA
         line_length=4 * LONGEST,
         tables=(),
         length_write=None,

@@ -15,6 +15,7 @@ IPA, IZ
     Angle and height of a helix, from where the tool stands.
 """
 
+import math
 import re
 from collections.abc import Callable
 
@@ -41,6 +42,8 @@ TENTHS = 10.0
 LAST_PRESET = 6
 """The presets that a job's work offsets G54 to G59 are: rows 1 to 6."""
 FULL_TURN = 360.0
+LARGEST_TURN = 99_999.9999
+"""The largest IPA that the control takes, degrees."""
 SMALLEST_TURN = 1e-4
 """The last decimal of an angle, degrees."""
 HEAD = "G17 G90 G90.1 G94"
@@ -344,18 +347,26 @@ class _Reading:
         turn, down = float(words["IPA"]), float(words.get("IZ", "0"))
         if x is None or y is None or (z is None and down):
             raise fail(number, "CP from a place that the text has not said; write X, Y and Z before it")
-        if not SMALLEST_TURN / 2 < abs(turn) <= FULL_TURN:
-            raise fail(number, f"IPA{turn:g}: a block turns by 360 degrees at most; write one for each turn")
+        if not SMALLEST_TURN / 2 < abs(turn) <= LARGEST_TURN:
+            raise fail(number, f"IPA{turn:g}: a block turns by {LARGEST_TURN} degrees at most, and not by 0")
         if (turn > 0) != (words["DR"] == "G3"):
             raise fail(number, "IPA and DR turn to different sides; give both one sign")
-        if abs(turn) < FULL_TURN:
-            x, y = rotated((x, y), (float(centre[0]), float(centre[1])), turn)
+        whole, part = divmod(abs(turn), FULL_TURN)
+        if FULL_TURN - part < SMALLEST_TURN / 2:
+            whole, part = whole + 1, 0.0
+        if part >= SMALLEST_TURN / 2 or not whole:
+            x, y = rotated((x, y), (float(centre[0]), float(centre[1])), math.copysign(part, turn))
+            whole += 1
         said = [words["DR"], words.get("R", ""), f"X{worked_out(x)} Y{worked_out(y)}"]
         self.place["X"], self.place["Y"] = float(worked_out(x)), float(worked_out(y))
         if z is not None:
             self.place["Z"] = z + down
             said.append(f"Z{worked_out(z + down)}" if down else "")
-        said += ["I{} J{}".format(*centre), self._feed_word(number, words)]
+        said += [
+            "I{} J{}".format(*centre),
+            f"P{whole:.0f}" if whole > 1 else "",
+            self._feed_word(number, words),
+        ]
         return " ".join(filter(None, [*said, self._ms(number, words.get("M", ""), moving=True)]))
 
     def _pole_of(self, number: int) -> tuple[str, str]:

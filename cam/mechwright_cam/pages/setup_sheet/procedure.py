@@ -15,6 +15,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.beds import bed_and_clamp_lines
 from mechwright_cam.pages.setup_sheet.compensation import lines
+from mechwright_cam.pages.setup_sheet.ends import about_ends
 from mechwright_cam.pages.setup_sheet.probing import about_measuring, about_probing
 from mechwright_cam.pages.setup_sheet.several import (
     about_others,
@@ -84,6 +85,7 @@ def steps(
     needs = tuple(control.needs(job.settings))
     if control.leftover:
         needs += (f"The program does not take back {control.leftover}.",)
+    needs += about_ends(job, tools, reach, to)
     return [
         *([Step(BEFORE, needs)] if needs else []),
         _with_reach(_turn(job, to) if over else _stock(job, deepest, to), None if job.jaws else reach, to),
