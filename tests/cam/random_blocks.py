@@ -204,7 +204,7 @@ def ours(text: str, control: str) -> Run | None:
     try:
         return interpret(
             text,
-            replace(reader.dialect, highest_tool=reader.highest_tool),
+            replace(reader.dialect, words=reader.dialect.words.with_tools(reader.highest_tool)),
             start=(0.0, 0.0, 0.0),
             diameters={1: 4.0, 2: 2.0},
             upper_end=math.inf,

@@ -31,7 +31,7 @@ GRBL_REFUSES = (
     ("T256", "takes up to T255"),
     ("G2 X1.0001 Y0 I0 J-300", "below 1e-06 rad for a full circle"),
     ("G18\nG2 X1.0001 Z5 I0 K300", "below 1e-06 rad for a full circle"),
-    ("M7 M8", "wants a line for each"),
+    ("M7 M8", "exclude each other (coolant)"),
     ("G10 L2 P7 X0", "has P0 to P6"),
     ("G10 L2 P1", "G10 L2 without a value"),
     ("G10 L20 P1 X0 R1", "R means nothing in this line"),

@@ -153,7 +153,10 @@ def test_the_page_is_not_wider_than_the_window(
         (("--tools", "1=mill-6,1=drill-5"), "--tools: T1 is named twice"),
         (("--tools", "1=mill-66"), "--tools: no tool 'mill-66' in the library"),
         (("--material", "cheese"), "--material: 'cheese' is not known; one of: "),
-        (("--hold", "magnet"), "--hold: 'magnet' is not known; one of: tabs, bore, vacuum, tape"),
+        (
+            ("--hold", "magnet"),
+            "--hold: 'magnet' is not known; one of: tabs, bore, vacuum, tape, vice, clamps",
+        ),
         (("--stock", "big"), "--stock: 'big' is no plate"),
         (("--thickness", "0"), "--thickness: 0 mm is no plate"),
         (("--control", "siemens"), "--control: 'siemens' is not known; one of: "),

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading import Kind, State, modes
 from mechwright_cam.controls.reading.motions import MOST_TURNS
+from mechwright_cam.controls.words.table import Words
 
 START = "G17 G21 G40 G49 G80 G90 G94\nG54\nG0 X0 Y0 Z5\n"
 
@@ -227,7 +228,7 @@ def test_block_delete() -> None:
         ("G2 F1", "without an axis"),
         ("G0 G1 X1 F1", "G0 and G1 exclude"),
         ("M3 M5", "M3 and M5 exclude"),
-        ("M8 M9", "M9 excludes"),
+        ("M8 M9", "exclude each other"),
         ("G90 G91", "G90 and G91 exclude"),
         ("X1 X2", "two X words"),
         ("G41 D1", "no tool of that number is known"),
@@ -277,12 +278,12 @@ def test_bad_text_is_refused_with_its_line(text: str, message: str) -> None:
 
 
 def test_a_dialect_changes_the_meaning() -> None:
-    milliseconds = replace(LINUXCNC.dialect, name="other", dwell_unit=0.001, absolute_centres=True)
-    run = interpret(START + "G4 P500\nG2 X10 Y0 I5 J0 F9", milliseconds)
+    milliseconds = replace(LINUXCNC.dialect, name="other", dwell_unit=0.001)
+    run = interpret(START + "G4 P500\nG90.1 G2 X10 Y0 I5 J0 F9", milliseconds)
     assert run.seconds.sum() == 0.5
     assert run.centre[-1].tolist() == [5, 0]
     with pytest.raises(ProgramError, match="is read in programs for other"):
-        interpret("M6", replace(milliseconds, m_codes=frozenset()))
+        interpret("M6", replace(milliseconds, words=Words(milliseconds.words.codes[:5])))
 
 
 @given(st.text(alphabet="GMXYZIJRFSTHPQN0123456789.-+ ()/%;\n", max_size=80))

@@ -10,6 +10,7 @@ from by_night import examples
 from golden_programs import every_operation
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from klartext_blocks import numbered
 
 from mechwright_cam.program.moves import FeedArc, Operation, Program, Rapid, ToolSection
 
@@ -58,3 +59,29 @@ def test_what_roundings_leave_of_helices_does_not_add_up(units) -> None:
     cuts = run.end[run.cutting]
     off = [np.abs(cuts - end).max(axis=1).min() for end in ends[1:]]
     assert max(off) < (1.6e-3 if units == "mm" else 4e-3)
+
+
+HEAD = (
+    *("BEGIN PGM TURNS MM", "CYCL DEF 247 Q339=+1", "L Z+0 R0 FMAX M91", "TOOL CALL 3 Z S900", "M3"),
+    *("L X+10 Y+0 R0 FMAX", "L Z+1 R0 FMAX", "CC X+0 Y+0"),
+)
+
+
+@pytest.mark.parametrize(
+    ("angle", "turns"),
+    [(2880, 8), (720.5, 2), (360, 1), (359.99999, 1), (359.9999, 0), (359.9, 0), (1035, 2)],
+)
+@pytest.mark.parametrize("sign", ["+", "-"])
+def test_several_turns_in_a_block_are_as_many_blocks(angle: float, turns: int, sign: str) -> None:
+    whole = numbered(
+        *HEAD, f"CP IPA{sign}{angle} IZ-4.3 DR{sign} F200", "L Z+50 R0 FMAX", "M30", "END PGM TURNS MM"
+    )
+    shares = [360.0] * turns + ([angle - 360 * turns] if angle - 360 * turns > 1e-4 / 2 else [])
+    blocks = [f"CP IPA{sign}{one:.6f} IZ{-4.3 * one / sum(shares):.9f} DR{sign} F200" for one in shares]
+    each = numbered(*HEAD, *blocks, "L Z+50 R0 FMAX", "M30", "END PGM TURNS MM")
+    one, several = interpret(whole, TNC), interpret(each, TNC)
+    assert one.cutting.sum() == 1
+    assert several.cutting.sum() == len(shares)
+    assert one.sweep.sum() == pytest.approx(math.radians(angle) * (1 if sign == "+" else -1), abs=1e-6)
+    np.testing.assert_allclose(one.sweep.sum(), several.sweep.sum(), atol=1e-6)
+    np.testing.assert_allclose(one.end[one.cutting][-1], several.end[several.cutting][-1], atol=2e-6)

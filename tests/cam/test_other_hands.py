@@ -80,7 +80,7 @@ REFUSED = {
         "^G1 Z0. F400.$",
         "M5\nG1 Z0. F400. M3",
     ): "M3 beside a feed: whether Fanuc starts the spindle before",
-    ("fanuc", "^G80$", "G80 G81 X0. Z-1. R2."): "G80 and G81 exclude each other (cycle)",
+    ("fanuc", "^G80$", "G80 G81 X0. Z-1. R2."): "G80 and G81 exclude each other",
     ("fanuc", "^G98 G83", "G0 G98 G83"): "G0 and G83 exclude each other (motion)",
     ("linuxcnc", "^G80$", "G80\nZ50"): "an axis without a motion",
     ("linuxcnc", "^G80$", "G0 G80 Z50"): "G0 and G80 exclude each other (motion)",

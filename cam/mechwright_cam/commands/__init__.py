@@ -111,7 +111,10 @@ class Verify(Command):
         ] = "",
         hold: Annotated[
             str,
-            typer.Option(metavar="HOW", help="With --dxf: tabs, anywhere, by default; bore, vacuum, tape."),
+            typer.Option(
+                metavar="HOW",
+                help="With --dxf: tabs, anywhere, by default; bore, vacuum, tape, vice, clamps.",
+            ),
         ] = "",
         stock: Annotated[
             str, typer.Option(metavar="SIZE", help="With --dxf: of the plate, 120x80, or its margin, in mm.")

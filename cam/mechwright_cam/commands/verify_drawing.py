@@ -24,8 +24,12 @@ HOLDS: dict[str, dict[str, Any]] = {
     "bore": {"method": "bore"},
     "vacuum": {"method": "none", "bed": "vacuum"},
     "tape": {"method": "none", "bed": "tape"},
+    "vice": {"method": "vice"},
+    "clamps": {"method": "none"},
 }
 """What ``--hold`` may say, and the settings that it stands for."""
+GRIPPED = ("front", "rear")
+"""Edges of the stock that a vice grips, unless ``--set stock.finished`` names others."""
 USUAL_MATERIAL, USUAL_HOLD = "aluminium", "tabs"
 """Where nothing is said."""
 SETTINGS = Path("--set")
@@ -72,6 +76,12 @@ def job_of(
         table["stock"] = _size(stock)
     for change in changes:
         _set(table, change)
+    if hold == "vice":
+        table.setdefault("stock", {}).setdefault("finished", list(GRIPPED))
+    if hold == "clamps" and not table["hold"].get("toe_clamps"):
+        raise DesignError(
+            "--hold: the places of clamps have to be known: add --set hold.toe_clamps=[[x0, y0, x1, y1, top]]"
+        )
     cam = CamTable()
     said = cam.read(table, SETTINGS)
     (part,) = cam.parts(said, [read_drawing(dxf, thickness, material, units, layers)], SETTINGS)
@@ -81,12 +91,12 @@ def job_of(
             _named(shop, name, f"--set: {key}")
     cutters = _tools(tools, shop.cutting(settings.cutting).measured(settings.measured.lengths))
     if settings.hold.method != "tabs" or settings.hold.tab_places == "planned":
-        return make_job(part, settings, cutters)
+        return replace(make_job(part, settings, cutters), planned=False)
     # Tabs are found in the program: none are laid.
     free = settings.model_copy(update={"hold": settings.hold.model_copy(update={"method": "none"})})
     job = make_job(part, free, cutters)
     held = job.settings.hold.model_copy(update={"method": settings.hold.method})
-    return replace(job, settings=job.settings.model_copy(update={"hold": held}))
+    return replace(job, settings=job.settings.model_copy(update={"hold": held}), planned=False)
 
 
 def drawn_scene(text: str | Mapping[str, str], job: Job, host: Host) -> tuple[Scene, list[Rule]]:

@@ -190,8 +190,11 @@ class Control(Plugin):
             )
         return f"{self.title} does not turn the spindle back in step with the feed: it has no tapping cycle"
 
-    compensates: ClassVar[bool] = True
-    """Whether it has cutter compensation at all, which an earlier program may have left on."""
+    @property
+    def compensates(self) -> bool:
+        """Whether it has cutter compensation at all, which an earlier program may have left on."""
+        return True
+
     dwell_words: ClassVar[str] = "P is in seconds"
     """The unit of its dwells."""
     bound_words: ClassVar[str] = ""
@@ -288,8 +291,10 @@ class Control(Plugin):
         """What has to be set on the control before a job is run, a sentence each, for the setup sheet."""
         return ()
 
-    leftover: "ClassVar[str]" = ""
-    """What of an earlier program no program that is read here takes back, and how to; for sheet and proof."""
+    @property
+    def leftover(self) -> str:
+        """What an earlier program may leave and no program takes back, and how to; for sheet and proof."""
+        return ""
 
     def table_words(self, table: str) -> str:
         """What to do with the file of the tool table."""

@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 
 from mechwright.errors import ProgramError
-from mechwright_cam.controls.dialect import MILLING, NOT_SIMULATED, USUAL_M, Corners, Dialect
+from mechwright_cam.controls.dialect import Corners, Dialect, Text
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
+from mechwright_cam.controls.words import fanuc as words
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
 from mechwright_cam.controls.writing.text import comment_lines
 from mechwright_cam.controls.writing.writer import Writer
@@ -27,47 +28,29 @@ class Fanuc(GcodeControl):
 
     name = "fanuc"
     title = "Fanuc"
-    leftover = (
-        "an origin shift (G92, G52), scale (G51), mirror (G51.1) or turn (G68) of an "
-        "earlier program: look that the common offset (EXT) is 0, and G50, G50.1 and G69 in force"
-    )
     dialect = Dialect(
         calls="98",
-        g_codes=MILLING | {541, 740},
+        words=words.WORDS,
+        kept=words.KEPT,
+        text=Text(
+            semicolon_comments=False,
+            ascii_comments=True,
+            capitals=True,
+            percent_ends=False,
+            program_numbers=True,
+        ),
         tapping="M29",
-        unsupported=NOT_SIMULATED,
-        inert=((90, ""), (970, ""), (51, "QR"), (80, "P"), (150, ""), (500, ""), (690, "")),
-        inert_with=frozenset({51, 80}),
-        m_codes=USUAL_M | {19, 29},
         bare_dwell_unit=0.001,
-        dwells_first=False,
-        semicolon_comments=False,
         peck_clearance=1.0,
         decimals=3,
         decimals_inch=4,
-        point_needed=True,
-        feeds_with_point="inch",
-        whole_words="STHDLM",
-        ascii_comments=True,
-        capitals=True,
-        one_m=True,
         arc_entry=False,
         idle_most=1,
-        percent_ends=False,
-        program_numbers=True,
         home_cancels_length=True,
         length_moves="parameter 5006, bit 6",
-        numbers_needed="DH",
         length_write=(10, "R"),
-        bare_home=False,
         one_unit=True,
         change_stops_coolant=True,
-        ends_cycles=True,
-        cycles_apart=True,
-        repeats="K",
-        starts_first=False,
-        feed_mode_stays=True,
-        whole_dwells=True,
         # G64 and no word at all are rounded by the machine's parameters; R of G5.1 may ask for speed, and
         # with Q2 or more it puts curves through the places of the program.
         corners=Corners(
@@ -78,6 +61,7 @@ class Fanuc(GcodeControl):
             )
         ),
     )
+    takes_back = "look that the common offset (EXT) is 0, and G15, G50, G50.1, G67 and G69 in force"
     offsets = OffsetTables(d="setting", d_setting="commonly parameter 5004, bit 2", wear=True)
     work_offsets = (G54_TO_G59, FANUC_OFFSETS)
     stages = True

@@ -125,7 +125,8 @@ class GcodeControl(Subprograms):
 
     def read(self, program: str | Mapping[str, str], **settings: Any) -> Run:
         """Run a program by the rules of the control's dialect."""
-        dialect = replace(self.dialect, name=self.title, highest_tool=self.highest_tool)
+        table = self.dialect.words.with_tools(self.highest_tool)
+        dialect = replace(self.dialect, name=self.title, words=table)
         return interpret_files(program, dialect, **settings)
 
     def head(self, out: Writer) -> None:
@@ -162,7 +163,7 @@ class GcodeControl(Subprograms):
                 "given; measure it, or leave the offsets to the operator"
             )
         self.comment(out, "measured offsets")
-        if self.dialect.motion_for_axes:
+        if self.dialect.words.axes_need_motion:
             out.line("G0")  # G80 of the safe start is in force, and no axis word may stand beside it
         for offset, place in places.items():
             out.line(self.write_offset(offset, {axis.upper(): getattr(place, axis) for axis in "xyz"}))

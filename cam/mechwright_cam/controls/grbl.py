@@ -6,9 +6,10 @@ from itertools import groupby
 
 from mechwright.contracts.finding import Finding, Severity
 from mechwright_cam.controls.contract import METRIC
-from mechwright_cam.controls.dialect import CENTRE, EXACT, FEEDS, RETURN, USUAL_M, Dialect, OffsetTable
+from mechwright_cam.controls.dialect import EXACT, Arcs, Dialect, Text
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables
+from mechwright_cam.controls.words import grbl as words
 from mechwright_cam.controls.writing.measuring import Measuring
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
@@ -17,7 +18,6 @@ from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
 
-_NO_D = "there is G40 only; post the path of the tool's centre"
 BELOW_SWITCH = -2.0
 """Machine Z of a retract, mm: the pull-off of homing ($27) is 1 mm as it comes."""
 MOST_TURNS = 4
@@ -38,39 +38,24 @@ class Grbl(Measuring, GcodeControl):
     title = "Grbl 1.1"
     dialect = Dialect(
         stored_homes=frozenset({"G28", "G30"}),
-        g_codes=frozenset(
-            {0, 10, 20, 30, 40, 100, 280, RETURN, 530, 170, 180, 190, 200, 210, 400, 431, 490, 800, 900}
-            | {910, 911, 540, 550, 560, 570, 580, 590, 610, 921, 940}
+        words=words.WORDS,
+        kept=words.KEPT,
+        text=Text(
+            longest=79,  # the buffer has 80 bytes, and the last of them ends the line
+            counts_code=True,
+            ascii_comments=True,  # it obeys bytes from 128 up wherever they stand: overrides of feed, speed
+            forbidden=_REALTIME,
+            digits=8,  # MAX_INT_DIGITS
+            percent=False,
         ),
-        m_codes=USUAL_M - {6},
-        unsupported=(
-            (410, _NO_D),
-            (420, _NO_D),
-            (430, "there is no table of lengths; write G43.1 Z"),
-            *((probing, "probing is not simulated") for probing in (382, 383, 384, 385)),
-            (920, CENTRE),
-            (930, FEEDS),
+        arcs=Arcs(
+            absolute=0.005,
+            most=0.5,
+            chord=-1e-4,  # single precision, at machine coordinates of up to 1 m
+            least_turn=1e-6,  # ARC_ANGULAR_TRAVEL_EPSILON is 5e-7, in single precision
         ),
-        arc_absolute=0.005,
-        arc_most=0.5,
-        arc_chord=-1e-4,  # single precision, at machine coordinates of up to 1 m
-        digits=8,  # MAX_INT_DIGITS
-        arc_least_turn=1e-6,  # ARC_ANGULAR_TRAVEL_EPSILON is 5e-7, in single precision
-        line_length=79,  # the buffer has 80 bytes, and the last of them ends the line
-        counts_code=True,
-        ascii_comments=True,  # it obeys bytes from 128 up wherever they stand: overrides of feed and speed
-        largest_n=10_000_000,
-        axis_commands=frozenset({100, 280, RETURN, 431, 490}),
-        drops_axes=frozenset({490}),
-        motion_for_axes=True,
-        arc_needs_end=True,
-        both_coolants=False,
-        tables=tuple(OffsetTable(number, "XYZ", 0, 6) for number in (2, 20)),
-        arc_idle=True,
-        percent=False,
         decimals=3,
         tool_by_t=True,
-        forbidden=_REALTIME,
         length_write=None,
         corners=EXACT,  # the path is always followed: junction deviation ($11) slows down, and rounds nothing
     )
@@ -78,7 +63,7 @@ class Grbl(Measuring, GcodeControl):
     forbidden = "%$;" + _REALTIME
     highest_tool = 255
     by_hand = "files"
-    leftover = "an origin shift (G92) of an earlier program: type G92.1 before zero is set"
+    takes_back = "type G92.1 before zero is set"
     modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def files(self, program: Program) -> dict[str, str]:
@@ -165,7 +150,6 @@ class Grbl(Measuring, GcodeControl):
         remedy = f"leave tool_change out for one file per tool, or give their lengths in {lengths}"
         return [*taps, Finding.warning("cam.tool-change", "cam.post.tool_change", message, remedy=remedy)]
 
-    compensates = False
     counts = False  # its parameters are told to the sender alone
 
     def cannot_probe(self, tools: Sequence[Tool]) -> str:

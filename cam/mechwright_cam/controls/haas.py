@@ -9,6 +9,7 @@ from mechwright_cam.controls.dialect import Corners
 from mechwright_cam.controls.fanuc import SUBPROGRAMS, Fanuc
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import G54_TO_G59, HAAS_OFFSETS
+from mechwright_cam.controls.words import haas as words
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Tap
 from mechwright_cam.shop.settings import CamSettings
@@ -22,31 +23,19 @@ class Haas(Fanuc):
 
     name = "haas"
     title = "Haas"
-    leftover = (
-        "an origin shift (G92, G52), scale (G51), mirror (G101) or turn (G68) of an "
-        "earlier program: look that the offset of G52 is 0, and G50, G100 and G69 in force"
-    )
     dialect = replace(
         Fanuc.dialect,
         calls="97",
-        g_codes=Fanuc.dialect.g_codes - {541} | {1540},
-        m_codes=Fanuc.dialect.m_codes - {29},
+        words=words.WORDS,
+        kept=words.KEPT,
         tapping="always",
-        inert=((1030, "P"), (1870, "P"), (500, ""), (690, ""), (150, ""), (970, "")),
-        inert_with=frozenset(),
-        inert_m=frozenset({31, 33, 88, 89}),
         peck_clearance=1.27,
-        bare_home=True,
         length_moves="",
         idle_most=math.inf,  # it looks many blocks ahead
-        whole_dwells=False,
-        feeds_with_point="always",  # setting 77, as it comes
-        whole_words="",
-        repeats="L",
-        feed_mode_stays=False,  # M30 and RESET bring G94 back
         # Corners are rounded as settings 85 and 191 say; G187 P1 (rough) lets them go further.
         corners=Corners(looser=((1870, "P", frozenset({2.0, 3.0}), "write P2 (medium) or P3 (finish)"),)),
     )
+    takes_back = "look that the offset of G52 is 0, and G50, G100 and G69 in force"
     offsets = replace(Fanuc.offsets, d_setting="setting 40")
     work_offsets = (G54_TO_G59, HAAS_OFFSETS)
     tap_needs = "G84 taps rigidly where the machine has the option; look whether it is turned on."

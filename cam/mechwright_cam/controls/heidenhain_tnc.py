@@ -7,11 +7,11 @@ from mechwright.contracts.finding import Finding
 from mechwright.errors import ProgramError
 from mechwright.output.csv_text import csv_text
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.dialect import ROUGH, Corners, Dialect
+from mechwright_cam.controls.dialect import ROUGH, Arcs, Corners, Dialect, Text
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
 from mechwright_cam.controls.reading import klartext
-from mechwright_cam.controls.reading.klartext_words import LONGEST, M_CODES
+from mechwright_cam.controls.words import klartext as words
 from mechwright_cam.controls.writing.klartext import KlartextWriter, numbered, signed
 from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
@@ -40,25 +40,17 @@ class HeidenhainTnc(GcodeControl):
     suffix = ".h"
     dialect = Dialect(
         calls="98",
-        # The codes of the interpreter that the blocks of the control come to.
-        g_codes=frozenset(
-            {0, 10, 20, 30, 40, 170, 200, 210, 400, 430, 490, 530, 540, 550, 560, 570, 580, 590, 640}
-            | {900, 901, 940}
-        ),
+        words=words.INTERPRETED,
+        kept=words.KEPT,
         translate=klartext.translated,
-        m_codes=M_CODES,
+        text=Text(longest=4 * words.LONGEST, percent=False),
+        # The machine parameter of circles allows no more.
+        arcs=Arcs(absolute=0.016, relative=0.0, chord=0.0),
         stops_behind=True,
-        arc_absolute=0.016,  # the machine parameter of circles allows no more
-        arc_relative=0.0,
-        arc_chord=0.0,
-        line_length=4 * LONGEST,
-        tables=(),
         length_write=None,
         decimals=3,
         decimals_inch=4,
-        percent=False,
         change_stops_coolant=True,
-        feed_mode_stays=True,
         # Without cycle 32 the machine's own tolerance holds, with it T alone.
         corners=Corners(tolerance=True),
     )
@@ -71,11 +63,7 @@ class HeidenhainTnc(GcodeControl):
     highest_tool = 32767
     forbidden = "~;"
     tolerances = (ROUGH, TOLERANCES.arc_fit, EXACT)
-    leftover = (
-        "a datum shift, mirror, rotation, scaling or tilted plane (cycles 7, 8, 10, 11, 19, 26, PLANE) of an "
-        "earlier program, nor M118 and M120: select the program anew, and look that the status display shows "
-        "none"
-    )
+    takes_back = "select the program anew, and look that the status display shows none"
 
     def writer(self, program: Program) -> Writer:
         """A writer of blocks."""

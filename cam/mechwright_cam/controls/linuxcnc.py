@@ -5,12 +5,13 @@ from collections.abc import Sequence
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import METRIC
-from mechwright_cam.controls.dialect import FEEDS, MILLING, RETURN, ROUGH, Corners, Dialect, OffsetTable
+from mechwright_cam.controls.dialect import ROUGH, Arcs, Corners, Dialect, Text
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.lookahead.contract import Lookahead
 from mechwright_cam.controls.lookahead.linuxcnc import Planner
 from mechwright_cam.controls.offsets import G54_TO_G59, LINUXCNC_OFFSETS
 from mechwright_cam.controls.reading.macros import Macros
+from mechwright_cam.controls.words import linuxcnc as words
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
 from mechwright_cam.controls.writing.measuring import Measuring
 from mechwright_cam.controls.writing.text import comment_lines, floored, number
@@ -37,41 +38,21 @@ class LinuxCnc(Measuring, GcodeControl):
     dialect = Dialect(
         stored_homes=frozenset({"G28", "G30"}),
         macros=Macros,
+        words=words.WORDS,
+        kept=words.KEPT,
+        text=Text(
+            active_comments=("py,", "pyrun,", "pyreload", "abort,", "logopen,", "logappend,", "probeopen")
+        ),
         # Without P, or without any word, it keeps up its speed however far it leaves the path.
         corners=Corners(unsaid=math.inf, after_g64=math.inf, tolerance=True),
-        active_comments=("py,", "pyrun,", "pyreload", "abort,", "logopen,", "logappend,", "probeopen"),
-        largest_n=99_999_999,
-        parts_of_n=True,
-        arc_inch=2.54,
-        arc_of_larger=True,
-        arc_most=2.83,
-        arc_least=0.00127,
-        arc_chord=0.00127,
-        arc_turns=True,
-        both_coolants=False,
+        arcs=Arcs(inch=2.54, of_larger=True, most=2.83, least=0.00127, chord=0.00127),
         mode_ends_feed=True,
-        feed_mode_stays=True,  # M2 brings G94 back, a program that was broken off does not
-        usual=frozenset({"G94", "G91.1"}),
-        axis_commands=frozenset({100, 280, RETURN, 431}),
-        inert=((970, ""),),
-        tables=(
-            *(OffsetTable(number, "XYZR") for number in (1, 10, 11)),
-            OffsetTable(2, "XYZ", 0, 9),  # R would turn the axes, which is not simulated
-            OffsetTable(20, "XYZ", 0, 9),
-        ),
         entry_along_z=False,
         tapping="G33.1",
         taps_out=True,
-        g_codes=MILLING - {RETURN} | {331, 740, 411, 421, 431, 591, 592, 593, 611, 901, 911, 921, 922},
-        unsupported=(
-            (RETURN, "retract with G53 G0 Z0 or G28"),
-            (920, "shift the origin with the work offset, G54 to G59.3"),
-            (930, FEEDS),
-            (950, FEEDS),
-        ),
     )
     modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
-    leftover = "an origin shift (G92, G52) of an earlier program: type G92.1 before zero is set"
+    takes_back = "type G92.1 and G8 before zero is set, and look that R of the work offset is 0"
     work_offsets = (G54_TO_G59, LINUXCNC_OFFSETS)
     highest_tool = 99999
     stages = True

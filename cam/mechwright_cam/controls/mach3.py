@@ -4,8 +4,9 @@ from collections.abc import Mapping, Sequence
 
 from mechwright.output.csv_text import csv_text
 from mechwright_cam.controls.contract import METRIC
-from mechwright_cam.controls.dialect import EXACT, MILLING, NOT_SIMULATED, Dialect, OffsetTable
+from mechwright_cam.controls.dialect import EXACT, Dialect, Text
 from mechwright_cam.controls.gcode import GcodeControl
+from mechwright_cam.controls.words import mach3 as words
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, Tap
 from mechwright_cam.shop.settings import CamSettings
@@ -20,24 +21,16 @@ class Mach3(GcodeControl):
     dialect = Dialect(
         stored_homes=frozenset({"G28", "G30"}),
         calls="98",
-        g_codes=MILLING | {901, 911, 921},
-        unsupported=NOT_SIMULATED,
-        inert=((500, ""), (690, ""), (970, "")),
-        feed_mode_stays=True,
-        inert_m=frozenset({48, 49}),
-        semicolon_comments=False,
-        numbers_needed="H",
-        tables=(OffsetTable(1, "XZ"), OffsetTable(2, "XYZ")),
+        words=words.WORDS,
+        kept=words.KEPT,
+        text=Text(semicolon_comments=False),
         corners=EXACT,  # constant velocity (G64) rounds corners as the settings of the machine say
     )
     subprograms = "behind"
     taps = frozenset({"floating"})
     forbidden = "%;"
     highest_tool = 254
-    leftover = (
-        "an origin shift (G92, G52), scale (G51) or turn (G68) of an earlier program: type G92.1, G50 and "
-        "G69 before zero is set"
-    )
+    takes_back = "type G15, G92.1, G50 and G69 before zero is set"
     modes = ("G17", METRIC, "G40", "G49", "G80", "G90", "G91.1", "G94")
 
     def subprogram_call(self, out: Writer, number: int) -> str:

@@ -5,10 +5,11 @@ import re
 from collections.abc import Mapping, Sequence
 
 from mechwright.output.csv_text import csv_text
-from mechwright_cam.controls.dialect import EXACT, Dialect, OffsetTable
+from mechwright_cam.controls.dialect import EXACT, Arcs, Dialect, Text
 from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
 from mechwright_cam.controls.reading import sinumerik
+from mechwright_cam.controls.words import sinumerik as words
 from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
@@ -53,24 +54,15 @@ class Siemens840D(GcodeControl):
     suffix = ".mpf"
     dialect = Dialect(
         calls="98",
-        # The codes of the interpreter that the words of the control come to.
-        g_codes=frozenset(
-            {0, 10, 20, 30, 40, 100, 170, 200, 210, 400, 430, 490, 530, 540, 550, 560, 570, 610, 640}
-            | {900, 910, 940}
-        ),
+        words=words.INTERPRETED,
+        kept=words.KEPT,
         translate=sinumerik.translated,
-        m_codes=sinumerik.M_CODES,
-        arc_absolute=0.01,  # MD 21000; MD 21010 is the part of the radius
-        arc_chord=0.0,
-        line_length=sinumerik.LONGEST,
-        largest_n=99_999_999,
-        tables=(OffsetTable(2, "XYZ"),),
+        text=Text(longest=sinumerik.LONGEST, percent=False),
+        arcs=Arcs(absolute=0.01, chord=0.0),  # MD 21000; MD 21010 is the part of the radius
         length_write=None,
         decimals=3,
         decimals_inch=4,
-        percent=False,
         change_stops_coolant=True,
-        feed_mode_stays=True,
         corners=EXACT,  # how far G64 rounds corners, machine data say
     )
     offsets = OffsetTables(d=None)
@@ -82,10 +74,7 @@ class Siemens840D(GcodeControl):
     highest_tool = 32000
     forbidden = '%;"$'
     modes = ("G17", sinumerik.METRIC, "G40", "G90", "G94", "COMPOF")
-    leftover = (
-        "a frame (TRANS, ROT, SCALE, MIRROR, a basic or an external one) of an earlier program or of hands: "
-        "press Reset, and look that the frames but G54 to G57 are 0"
-    )
+    takes_back = "press Reset, and look that the frames but G54 to G57 are 0"
 
     @property
     def unit_word(self) -> str:

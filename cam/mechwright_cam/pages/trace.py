@@ -22,7 +22,7 @@ from mechwright_cam.program.moves import (
 )
 
 Place = tuple[float, float, float]
-_AS_PLANNED = Dialect(frozenset())
+_AS_PLANNED = Dialect()
 """No control has touched the program yet: of a dialect the limits of arcs alone count here."""
 
 

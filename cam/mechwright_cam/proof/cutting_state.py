@@ -67,8 +67,11 @@ def _goes_in(scene: Scene) -> NDArray[np.bool_]:
 
 
 def coolant(scene: Scene) -> Check:
-    """Coolant runs as planned while the cutter is in the work."""
-    wanted = scene.job.settings.coolant
+    """Coolant runs as planned while the cutter is in the work; a program of other hands may have any."""
+    job, wanted = scene.job, scene.job.settings.coolant
+    if not job.planned and "coolant" not in job.settings.model_fields_set:
+        found = {scene.run.states[index].coolant for index in set(scene.run.state[in_work(scene)].tolist())}
+        return Check(True, f"no coolant is planned; in the work it is {' and '.join(sorted(found)) or 'off'}")
     wrong = scene.run.of_states(lambda state: state.coolant != wanted)
     if (step := first(in_work(scene) & wrong)) is not None:
         word = scene.control.m({"flood": 8, "mist": 7, "off": 9}[wanted])

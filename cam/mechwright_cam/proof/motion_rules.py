@@ -16,7 +16,7 @@ from mechwright_cam.setup.views import inside_of
 def travel(scene: Scene) -> Check:
     """The moves fit into the machine: where the stock is clamped if that is known, else wherever it is.
 
-    Machine coordinates (G53) lie within both ends of every axis.
+    Machine coordinates (G53) lie within both ends of every axis. Unknown ends and places are named.
     """
     paths, machine = scene.paths, scene.job.settings.machine
     outside = _outside(scene)
@@ -45,7 +45,20 @@ def travel(scene: Scene) -> Check:
         beyond = _beyond(scene, axis, lower, upper, limit)
         if beyond is not None:
             return beyond
-    return Check(True, "all moves are within the machine's travel")
+    unknown = _unknown(scene)
+    if not unknown:
+        return Check(True, "all moves are within the machine's travel")
+    return Check(True, f"the moves span no more than the machine travels; not known is {unknown}")
+
+
+def _unknown(scene: Scene) -> str:
+    """What is not known of where the moves lie in the machine; empty if all is."""
+    cam = scene.job.settings
+    ends = [f"cam.machine.low_{axis}" for axis in cam.machine.open_axes]
+    places = [f"cam.measured.{axis}" for axis in "xyz" if getattr(cam.measured, axis) is None]
+    used = sorted({*scene.run.tool[scene.paths.steps].tolist()} & scene.tools.keys())
+    lengths = [f"the length of T{number}" for number in used if scene.tools[number].length is None]
+    return ", ".join([*ends, *places, *lengths])
 
 
 def _outside(scene: Scene) -> Check | None:
@@ -83,10 +96,10 @@ def _going_there(scene: Scene, step: int, axis: str) -> int:
 def _beyond(scene: Scene, axis: str, lower: Array, upper: Array, limit: float) -> Check | None:
     """The move that leaves the travel furthest, where offsets and the ends of travel are known."""
     cam, steps = scene.job.settings, scene.paths.steps
-    low: float | None = getattr(cam.machine, f"low_{axis.lower()}")
     place: float | None = getattr(cam.measured, axis.lower())
-    if low is None or place is None:
+    if axis.lower() in cam.machine.open_axes or place is None:
         return None
+    low = cam.machine.ends(axis.lower())[0]
     length = np.zeros(steps.size)
     if axis == "Z":
         length = scene.paths.of_tool(lambda tool: None if tool.length is None else tool.worn_length)[steps]

@@ -11,6 +11,7 @@ from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.proof.bands import floor_of, stock_shape
 from mechwright_cam.proof.details import missing
+from mechwright_cam.proof.overcut import with_extent
 from mechwright_cam.proof.paths import NEAR, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.proof.report import Check
@@ -28,7 +29,7 @@ def gouge(scene: Scene) -> Check:
     message = f"cuts {cut.depth:.3f} mm into the finished part, the limit is {limit:g} mm"
     if scene.misfit:
         message = f"{scene.misfit}, and {message}"
-    return scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at)
+    return with_extent(scene.bad(cut.step, message, cut.depth, limit, "mm", cut.at), scene, cut)
 
 
 def leftover(scene: Scene) -> Check:

@@ -88,6 +88,8 @@ class Job:
     """The underside is on top where the plate has been turned over."""
     gone: tuple[Air, ...] = ()
     """What of the plate earlier setups have cut away, by height; higher regions lie in lower ones."""
+    planned: bool = True
+    """Whether programs are planned by the settings; those of other hands answer for what is set alone."""
     pick_up: tuple[Point, ...] = ()
     """Middle of the bore, or of the two dowels, by which a plate turned over is found, work coordinates."""
 

@@ -219,6 +219,17 @@ class Machine(Parameters):
             return high - travel, high
         return -travel, travel
 
+    @property
+    def open_axes(self) -> tuple[str, ...]:
+        """The axes whose ends are not known in machine coordinates.
+
+        Z ends where programs retract to; the zero of X and Y may be anywhere.
+
+        >>> Machine(low_y=0.0).open_axes, Machine(low_x=-500.0, low_y=0.0).open_axes
+        (('x',), ())
+        """
+        return tuple(axis for axis in "xy" if getattr(self, f"low_{axis}") is None)
+
 
 class Preset(Parameters):
     """What a shop file takes over with a known machine: the table ``[NAME.shop]``."""

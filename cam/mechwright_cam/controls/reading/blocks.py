@@ -13,14 +13,15 @@ from dataclasses import dataclass, field
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.groups import CYCLES, CYCLES_APART, G_GROUP, M_GROUP, spell
+from mechwright_cam.controls.words.assign import RefusedError, check_codes
+from mechwright_cam.controls.words.groups import spell
+from mechwright_cam.controls.words.table import Code
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)"
 LARGEST_NUMBER = 1e9
 """Numbers beyond this are a slip of the pen: no control has so many digits."""
 _WORD = re.compile(rf"([A-Z@^])({NUMBER})")
 _LETTERS = frozenset("DFGHIJKLMNPQRSTXYZ")
-_LENGTHS = frozenset("IJKQRXYZ")
 _JUMP = re.compile(r"(IF|GOTO|WHILE|THEN|DO(?=[0-9])|END(?=[0-9]))")
 _PROGRAM = re.compile(r"[O:][0-9]{1,5}")
 POLAR = frozenset("@^")
@@ -39,6 +40,9 @@ _O_WORD = re.compile(rf"[\s{_MARK}]*(?:/\s*)?(?:N[0-9]+\s*)?O", re.IGNORECASE)
 _BLANKS = {ord(" "): None, ord("\t"): None}
 
 
+_NONE: dict[str, float] = {}
+
+
 @dataclass(slots=True)
 class Block:
     """One line: its codes, its other words by letter, its comments, and the letters without a point."""
@@ -54,6 +58,12 @@ class Block:
     """Whether it is a program number, such as O1234."""
     late_number: bool = False
     """Whether a line number would stand behind a comment."""
+    shares: dict[str, dict[str, float]] = field(default_factory=dict)
+    """Code to the words that it takes, of which it takes out those that it has used."""
+
+    def of(self, code: int | str) -> dict[str, float]:
+        """The words of a code, given in tenths or as it is written."""
+        return self.shares.get(code if isinstance(code, str) else spell(code), _NONE)
 
     def again(self, line: int) -> "Block":
         """The same for another line, with words of its own to be taken out."""
@@ -81,12 +91,12 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
 
     Examples
     --------
-    >>> block = read_block(7, "N10 g01 X-.5 (to the edge) F200", Dialect(frozenset({10})))
+    >>> block = read_block(7, "N10 g01 X-.5 (to the edge) F200", Dialect())
     >>> block.g, block.words, block.comments
     ([10], {'X': -0.5, 'F': 200.0}, ['to the edge'])
     """
     block = Block(line)
-    for character in dialect.forbidden:
+    for character in dialect.text.forbidden:
         if character in text:
             raise fail(line, f"{dialect.name} obeys {character!r} wherever it stands; take it out")
     code = _strip_comments(block, text, dialect) if "(" in text or ";" in text or ")" in text else text
@@ -94,11 +104,11 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
         check_comments(line, text)
         block.late_number = text.lstrip().startswith("(")
     code = code.translate(_BLANKS)
-    small = next((c for c in code if c.islower()), "") if dialect.capitals else ""
+    small = next((c for c in code if c.islower()), "") if dialect.text.capitals else ""
     code = code.upper()
-    if dialect.counts_code and len(code) > dialect.line_length:
-        raise fail(line, f"{len(code)} characters; {dialect.name} reads at most {dialect.line_length}")
-    if dialect.program_numbers and _PROGRAM.fullmatch(code):
+    if dialect.text.counts_code and len(code) > dialect.text.longest:
+        raise fail(line, f"{len(code)} characters; {dialect.name} reads at most {dialect.text.longest}")
+    if dialect.text.program_numbers and _PROGRAM.fullmatch(code):
         block.title = True
         return block
     if code.startswith("/"):
@@ -115,9 +125,20 @@ def read_block(line: int, text: str, dialect: Dialect) -> Block:
         position = match.end()
     if small:
         raise fail(line, f"the small letter {small!r} is no word to {dialect.name}; write words in capitals")
-    if dialect.one_m and len(block.m) > 1:
+    if len(block.g) + len(block.m) > 1:
+        try:
+            check_codes(dialect.words, rows_of(block, dialect))
+        except RefusedError as error:
+            raise fail(line, str(error)) from None
+    if dialect.words.one_m and len(block.m) > 1:
         raise fail(line, f"several M codes; {dialect.name} obeys one in a line, write a line for each")
     return block
+
+
+def rows_of(block: Block, dialect: Dialect) -> list[Code]:
+    """The rows of a block's codes in the table of the control; a code that it does not know has none."""
+    g, m = dialect.words.g, dialect.words.m
+    return [g[code] for code in block.g if code in g] + [m[code] for code in block.m if code in m]
 
 
 def check_comments(line: int, text: str) -> None:
@@ -137,26 +158,22 @@ def check_comments(line: int, text: str) -> None:
 def check_points(block: Block, dialect: Dialect, *, inches: bool = False) -> None:
     """A length without a point is a trap: 10 may be 10 mm or 10 µm, by a setting. 0 is 0 in any case.
 
-    So is a feed, on some controls or in inches alone. Words that are no lengths have been taken out before.
+    So is a feed, on some controls or in inches alone. What is no length is told by the row of its code.
     """
-    if "F" in block.bare and dialect.feeds_with_point in ({"inch", "always"} if inches else {"always"}):
-        value = block.words["F"]
-        if value:
-            raise fail(
-                block.line,
-                f"F{value:g} has no decimal point, and {dialect.name} may read hundredths or less; "
-                f"write F{value:g}.",
-            )
-    for letter in sorted(block.bare & _LENGTHS & block.words.keys()):
-        value = block.words[letter]
-        if letter == dialect.repeats and not CYCLES.isdisjoint(block.g):
-            continue
-        if value and not (letter in "RXYZ" and 100 in block.g) and not (letter == "X" and 40 in block.g):
-            raise fail(
-                block.line,
-                f"{letter}{value:g} has no decimal point, and {dialect.name} may read thousandths; "
-                f"write {letter}{value:g}.",
-            )
+    table = dialect.words
+    for code, share in block.shares.items():
+        row = table.known.get(code)
+        for letter, value in share.items():
+            if letter not in block.bare or not value or (row is not None and letter in row.pointless):
+                continue
+            point = table.of(letter).point
+            if point == "needed" or (point == "inches" and inches):
+                many = "hundredths or less" if letter == "F" else "thousandths"
+                raise fail(
+                    block.line,
+                    f"{letter}{value:g} has no decimal point, and {dialect.name} may read {many}; "
+                    f"write {letter}{value:g}.",
+                )
 
 
 def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
@@ -176,7 +193,7 @@ def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
             position = end
         elif character == ")":
             raise fail(block.line, "a ) without its (")
-        elif character == ";" and dialect.semicolon_comments:
+        elif character == ";" and dialect.text.semicolon_comments:
             _keep_comment(block, text[position + 1 :], dialect)
             return "".join(kept)
         else:
@@ -187,7 +204,7 @@ def _strip_comments(block: Block, text: str, dialect: Dialect) -> str:
 
 def _keep_comment(block: Block, comment: str, dialect: Dialect) -> None:
     comment = comment.strip()
-    if comment.lower().startswith(dialect.active_comments):
+    if comment.lower().startswith(dialect.text.active_comments):
         raise fail(
             block.line,
             f"{dialect.name} carries out the comment {comment[:20]!r}, which is not simulated; take it out",
@@ -216,32 +233,36 @@ def _add(block: Block, letter: str, number: str, dialect: Dialect, *, first: boo
     value = float(number)
     if not abs(value) <= LARGEST_NUMBER:
         raise fail(block.line, f"{letter}{value:.3g} is a number that no control reads")
+    address = dialect.words.of(letter)
     if letter == "G":
-        groups = CYCLES_APART if dialect.cycles_apart else G_GROUP
-        _add_code(block, "G", block.g, round(value * 10), value * 10, groups)
+        _add_code(block, "G", block.g, round(value * 10), value * 10)
     elif letter == "M":
-        if "." in number and letter in dialect.whole_words:
+        if "." in number and address.point == "never":
             raise fail(block.line, _pointed(letter, number, dialect))
         usual = dialect.standard_m(round(value))
         if usual is None:
             raise fail(block.line, no_code(f"M{number}", dialect))
-        _add_code(block, "M", block.m, usual, value + usual - round(value), M_GROUP)
+        _add_code(block, "M", block.m, usual, value + usual - round(value))
     elif letter == "N":
         if not first or (dialect.macros and block.late_number):
             raise fail(block.line, "a line number stands at the start of its line")
-        whole = number.isdigit() or (dialect.parts_of_n and number[0].isdigit() and number[-1] != ".")
-        if not whole or value > dialect.largest_n:
-            raise fail(block.line, f"N{number[:12]}: line numbers are whole, from 0 to {dialect.largest_n}")
+        whole = number.isdigit() or (address.parts and number[0].isdigit() and number[-1] != ".")
+        if not whole or value > address.most:
+            raise fail(block.line, f"N{number[:12]}: line numbers are whole, from 0 to {address.most:.0f}")
     elif letter == "O":
         raise fail(block.line, _explain("O"))
     elif letter in _OTHER_AXES:
         raise fail(block.line, f"axis {letter} is not read; this is a three-axis interpreter")
-    elif letter not in _LETTERS and not (dialect.macros and letter in POLAR):
+    elif letter not in _LETTERS and not (dialect.words.polar and letter in POLAR):
         raise fail(block.line, f"{letter!r} starts no word: {letter}{number}")
     elif letter in block.words:
         raise fail(block.line, f"two {letter} words")
-    elif "." in number and letter in dialect.whole_words:
+    elif "." in number and address.point == "never":
         raise fail(block.line, _pointed(letter, number, dialect))
+    elif value > address.most:
+        raise fail(
+            block.line, f"{letter}{number[:20]}: {dialect.name} takes up to {letter}{address.most:.0f}"
+        )
     else:
         block.words[letter] = value
         if "." not in number:
@@ -252,14 +273,7 @@ def _pointed(letter: str, number: str, dialect: Dialect) -> str:
     return f"{letter}{number} has a decimal point, and {dialect.name} takes {letter} whole"
 
 
-def _add_code(
-    block: Block, letter: str, codes: list[int], code: int, exact: float, groups: dict[int, str]
-) -> None:
+def _add_code(block: Block, letter: str, codes: list[int], code: int, exact: float) -> None:
     if abs(code - exact) > 1e-9 or code < 0:  # rounding of the product only; no control has such a code
         raise fail(block.line, f"{letter}{exact / (10 if letter == 'G' else 1):g} is no code")
-    group = groups.get(code)
-    for other in codes:
-        if other == code or (group is not None and groups.get(other) == group):
-            names = [spell(c) if letter == "G" else f"M{c}" for c in (other, code)]
-            raise fail(block.line, f"{names[0]} and {names[1]} exclude each other ({group or 'twice'})")
     codes.append(code)

@@ -33,8 +33,10 @@ class Faults:
     def __init__(self, text: str, lines: Sequence[str], dialect: Dialect) -> None:
         self.at, self.reason = len(lines), ""
         self.dialect = dialect
-        most = len(text) if dialect.counts_code else dialect.line_length
-        long = dialect.digits is not None and re.search(f"(?:{_DIGIT}){{{dialect.digits + 1}}}", text)
+        most = len(text) if dialect.text.counts_code else dialect.text.longest
+        long = dialect.text.digits is not None and re.search(
+            f"(?:{_DIGIT}){{{dialect.text.digits + 1}}}", text
+        )
         if not long and _ODD.search(text) is None and max(map(len, lines), default=0) <= most:
             return
         for index, line in enumerate(lines):
@@ -53,15 +55,15 @@ class Faults:
         if "\r" in line:
             return NO_LINE_END
         if _ODD.search(line):
-            comment = _COMMENT if self.dialect.semicolon_comments else _IN_BRACKETS
+            comment = _COMMENT if self.dialect.text.semicolon_comments else _IN_BRACKETS
             if (odd := _ODD.search(comment.sub("", line))) is not None:
                 return f"{_spelt(odd[0])} stands outside of comments, and {name} reads ASCII only there"
-            odd = (_ODD if self.dialect.ascii_comments else _CONTROL).search(line)
+            odd = (_ODD if self.dialect.text.ascii_comments else _CONTROL).search(line)
             if odd is not None:
                 return f"{_spelt(odd[0])} stands in a comment, and {name} does not take it there"
         if len(line) > most:
             return f"{len(line)} characters; {name} reads at most {most}"
-        return "" if self.dialect.digits is None else self._dropped(line, self.dialect.digits)
+        return "" if self.dialect.text.digits is None else self._dropped(line, self.dialect.text.digits)
 
     def _dropped(self, line: str, most: int) -> str:
         """What is wrong with a number whose digits behind the first ones count, as the control drops them.

@@ -44,7 +44,7 @@ class CommentsAndStates:
 
     Examples
     --------
-    >>> dialect = Dialect(frozenset({10, 900}))
+    >>> dialect = Dialect()
     >>> found = CommentsAndStates(["G1 X1 (to the edge)", "G1 G90 X2 M3", "X3"], dialect)
     >>> found.text.split("\n"), found.comments, found.kind.tolist()
     (['G1 X1 ', 'G1   X2  ', 'X3'], {0: 'to the edge'}, [0, 1, 0])
@@ -58,7 +58,7 @@ class CommentsAndStates:
         self.kind: Ints = np.zeros(len(lines), dtype=np.int64)
         self.states = [Block(0)]
         self._known: dict[tuple[str, ...], int] = {}
-        self._words = re.compile(_STATE, 0 if dialect.capitals else re.IGNORECASE)
+        self._words = re.compile(_STATE, 0 if dialect.text.capitals else re.IGNORECASE)
         self.text = "\n".join(lines)
         found = [match.start() for match in _EITHER.finditer(self.text)]
         if not found:
@@ -66,7 +66,7 @@ class CommentsAndStates:
         ends = np.cumsum([len(line) + 1 for line in lines])
         kept = list(lines)
         for index in np.unique(np.searchsorted(ends, found, side="right")).tolist():
-            if len(lines[index]) <= dialect.line_length:
+            if len(lines[index]) <= dialect.text.longest:
                 kept[index] = self._without(index, lines[index])
         self.text = "\n".join(kept)
 
@@ -75,12 +75,12 @@ class CommentsAndStates:
         code, comment = line, None
         if "(" in line or ";" in line:
             parts = _ONE_COMMENT.fullmatch(line)
-            if parts is None and self.dialect.semicolon_comments:
+            if parts is None and self.dialect.text.semicolon_comments:
                 parts = _TO_THE_END.fullmatch(line)
-            if parts is None or any(character in line for character in self.dialect.forbidden):
+            if parts is None or any(character in line for character in self.dialect.text.forbidden):
                 return line
             code, comment = parts[1], parts[2].strip()
-            if comment.lower().startswith(self.dialect.active_comments):
+            if comment.lower().startswith(self.dialect.text.active_comments):
                 return line
         words = tuple(self._words.findall(code))
         if words:

@@ -15,6 +15,7 @@ IPA, IZ
     Angle and height of a helix, from where the tool stands.
 """
 
+import math
 import re
 from collections.abc import Callable
 
@@ -22,9 +23,7 @@ from mechwright_cam.controls.reading.arcs import rotated
 from mechwright_cam.controls.reading.blocks import fail
 from mechwright_cam.controls.reading.klartext_labels import Labels
 from mechwright_cam.controls.reading.klartext_words import (
-    CYCLES,
     NAME,
-    NO_CYCLE,
     NUMBER,
     check_length,
     dwell_of,
@@ -35,12 +34,15 @@ from mechwright_cam.controls.reading.klartext_words import (
     words_of,
     worked_out,
 )
+from mechwright_cam.controls.words.klartext import NO_CYCLE, WORDS
 
 TENTHS = 10.0
 """Feeds of a program in inches are in tenths of an inch a minute."""
-LAST_PRESET = 6
+LAST_PRESET = int(WORDS.of("Q339").most)
 """The presets that a job's work offsets G54 to G59 are: rows 1 to 6."""
 FULL_TURN = 360.0
+LARGEST_TURN = WORDS.of("IPA").most
+"""The largest IPA that the control takes, degrees."""
 SMALLEST_TURN = 1e-4
 """The last decimal of an angle, degrees."""
 HEAD = "G17 G90 G90.1 G94"
@@ -270,9 +272,9 @@ class _Reading:
         if cycle in {9, 32} and part == "1":
             raise fail(number, f"CYCL DEF {cycle}.1 without CYCL DEF {cycle}.0 before it")
         name = f"CYCL DEF {cycle}" + (f".{part}" if part else "")
-        raise fail(
-            number, f"{name} is no cycle that is read in programs for {NAME}; {CYCLES.get(cycle, NO_CYCLE)}"
-        )
+        row = WORDS.known.get(f"CYCL{cycle}")
+        why = NO_CYCLE if row is None else row.remedy
+        raise fail(number, f"{name} is no cycle that is read in programs for {NAME}; {why}")
 
     def _datum(self, number: int, rest: str) -> str:
         match = _DATUM.fullmatch(rest)
@@ -287,7 +289,7 @@ class _Reading:
     # -- moves ----------------------------------------------------------------------------------------------
 
     def _straight(self, number: int, code: str) -> str:
-        words = words_of(number, code, "XYZ")
+        words = words_of(number, code, WORDS.known["L"])
         axes = {axis: words[axis] for axis in "XYZ" if axis in words}
         ms = self._ms(number, words.get("M", ""), moving=bool(axes))
         machine = "M91" in ms.split()
@@ -309,7 +311,7 @@ class _Reading:
         return " ".join(filter(None, [*said, self._feed_word(number, words), functions]))
 
     def _pole(self, number: int, code: str) -> str:
-        words = words_of(number, code, "XY")
+        words = words_of(number, code, WORDS.known["CC"])
         if set(words) != {"X", "Y"}:
             raise fail(number, "CC is read with X and Y and nothing else, the centre in full")
         self.centre = words["X"], words["Y"]
@@ -317,7 +319,7 @@ class _Reading:
 
     def _arc(self, number: int, code: str) -> str:
         by_radius = code.startswith("CR")
-        words = words_of(number, code, ("X", "Y", "R", "DR") if by_radius else ("X", "Y", "DR"))
+        words = words_of(number, code, WORDS.known["CR" if by_radius else "C"])
         name = "CR" if by_radius else "C"
         needed = {"X", "Y", "DR"} | ({"RADIUS"} if by_radius else set())
         if not needed <= set(words):
@@ -335,7 +337,7 @@ class _Reading:
         return " ".join(filter(None, [*said, self._ms(number, words.get("M", ""), moving=True)]))
 
     def _helix(self, number: int, code: str) -> str:
-        words = words_of(number, code, ("IPA", "IZ", "DR"))
+        words = words_of(number, code, WORDS.known["CP"])
         if not {"IPA", "DR"} <= set(words):
             raise fail(number, "CP needs IPA and DR")
         self._in_plane(number, words)
@@ -344,18 +346,26 @@ class _Reading:
         turn, down = float(words["IPA"]), float(words.get("IZ", "0"))
         if x is None or y is None or (z is None and down):
             raise fail(number, "CP from a place that the text has not said; write X, Y and Z before it")
-        if not SMALLEST_TURN / 2 < abs(turn) <= FULL_TURN:
-            raise fail(number, f"IPA{turn:g}: a block turns by 360 degrees at most; write one for each turn")
+        if not SMALLEST_TURN / 2 < abs(turn) <= LARGEST_TURN:
+            raise fail(number, f"IPA{turn:g}: a block turns by {LARGEST_TURN} degrees at most, and not by 0")
         if (turn > 0) != (words["DR"] == "G3"):
             raise fail(number, "IPA and DR turn to different sides; give both one sign")
-        if abs(turn) < FULL_TURN:
-            x, y = rotated((x, y), (float(centre[0]), float(centre[1])), turn)
+        whole, part = divmod(abs(turn), FULL_TURN)
+        if FULL_TURN - part < SMALLEST_TURN / 2:
+            whole, part = whole + 1, 0.0
+        if part >= SMALLEST_TURN / 2 or not whole:
+            x, y = rotated((x, y), (float(centre[0]), float(centre[1])), math.copysign(part, turn))
+            whole += 1
         said = [words["DR"], words.get("R", ""), f"X{worked_out(x)} Y{worked_out(y)}"]
         self.place["X"], self.place["Y"] = float(worked_out(x)), float(worked_out(y))
         if z is not None:
             self.place["Z"] = z + down
             said.append(f"Z{worked_out(z + down)}" if down else "")
-        said += ["I{} J{}".format(*centre), self._feed_word(number, words)]
+        said += [
+            "I{} J{}".format(*centre),
+            f"P{whole:.0f}" if whole > 1 else "",
+            self._feed_word(number, words),
+        ]
         return " ".join(filter(None, [*said, self._ms(number, words.get("M", ""), moving=True)]))
 
     def _pole_of(self, number: int) -> tuple[str, str]:
@@ -386,7 +396,7 @@ class _Reading:
 
     def _functions(self, number: int, code: str) -> str:
         """M functions in a block of their own."""
-        words = words_of(number, f"- {code}", "")
+        words = words_of(number, f"- {code}", WORDS.known["M"])
         if set(words) != {"M"}:
             raise fail(number, f"{code}: M functions beside other words; write L before them")
         return self._ms(number, words["M"], moving=False)

@@ -8,16 +8,15 @@ import math
 from collections.abc import Mapping
 
 from mechwright_cam.controls.dialect import Dialect
-from mechwright_cam.controls.reading.blocks import POLAR, Block, check_points, fail, no_code
-from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, STOPPING, TAPPING, spell
-from mechwright_cam.controls.reading.motions import PLACES, Moving
+from mechwright_cam.controls.reading.blocks import Block, check_points, fail, no_code, rows_of
+from mechwright_cam.controls.reading.motions import Moving
 from mechwright_cam.controls.reading.run import Kind, Remark, SpindleChange
+from mechwright_cam.controls.words.assign import RefusedError, Situation, owners
+from mechwright_cam.controls.words.groups import MOTIONS, STOPPING, spell
+from mechwright_cam.controls.words.table import Use
 
-MOTIONS = GROUPS["motion"]
-TAKERS = {"P": frozenset({40, 100, 640}) | EXTENDED, "Q": frozenset({640})}
-"""Codes, other than motions, that take a letter which motions take as well."""
-MOTION_TAKERS = {"P": frozenset({20, 30, 820, 890}) | TAPPING, "Q": frozenset({730, 830})}
-"""The motions that take it; of arcs those of controls on which P is the number of turns."""
+MOST_KINDS = 10_000
+"""So many kinds of block, by their codes, addresses and the motion in force, are remembered."""
 HIGHEST_PARAMETER = 5000
 """Parameters beyond this are probe results, offsets and states of the machine."""
 
@@ -32,8 +31,9 @@ class Machine(Moving):
         self.sticky = {}
         self.idle = 0
         """Blocks without X and Y since the last move beside compensation."""
-        self.usual: set[tuple[int, ...]] = set()
-        """Codes of blocks, G, 0 and M, that are known to go together on this control."""
+        self._taken: dict[tuple[object, ...], list[tuple[str, str]]] = {}
+        """Kind of block to its addresses, each with the code that takes it."""
+        self._idle = frozenset(row.word for row in dialect.words.codes if row.use is Use.IDLE)
 
     def system_value(self, name: float | str) -> float:
         """A parameter that the machine keeps.
@@ -100,73 +100,86 @@ class Machine(Moving):
             self.remarks.append(Remark(block.line, comment, self.steps))
         if not (block.g or block.m or block.words):
             return
-        codes = (*block.g, 0, *block.m)
-        if codes not in self.usual:
-            self._check_codes(block)
-            if not self.dialect.inert_g & set(block.g):  # their letters are taken out each time
-                self.usual.add(codes)
         words, before, contour = block.words, self.state, self.contour
-        if not words.keys().isdisjoint(PLACES):
-            self._check_axes(block)
+        self._share(block)
         self._units(block)  # first, so that every length of this line is read in the units it states
         if self.dialect.point_needed and block.bare:
             check_points(block, self.dialect, inches=self.scale != 1.0)
         if "F" in words and (331 in block.g or (self.motion == 331 and "K" in words)):
             raise fail(block.line, "G33.1 with F, which the spindle gives there; leave it out")
-        self._speeds(block, words)
-        self._tool(block, words)
+        self._speeds(block)
+        self._tool(block)
         if block.m:
             self._spindle_and_coolant(block)
         if self.state is not before and self.state.spindle_rotation != before.spindle_rotation:
             place = self.x, self.y, self.z
             self.spindle_changes.append(SpindleChange(block.line, before.tool, place, self.steps))
-            if self.state.spindle_rotation and not self.dialect.starts_first and self._feeds(block):
-                word = f"M{self.dialect.m(3 if self.state.spindle_rotation > 0 else 4)}"
-                raise fail(
-                    block.line,
-                    f"{word} beside a feed: whether {self.dialect.name} starts the spindle before it, the "
-                    f"machine's builder has set; write {word} in a line before",
-                )
-        if not words.keys().isdisjoint("PQ") and block.g:
-            self._check_shared(block)
+            if self.state.spindle_rotation:
+                self._check_start(block)
         if 40 in block.g:
-            self._check_dwell(block)
-            bare_x = self.dialect.bare_dwell_unit is not None and "X" in words
-            seconds = self._waiting(block, "X" if bare_x else "P", "G4 needs a time, P")
+            time = block.of(40)
+            seconds = self._waiting(block, time, "X" if "X" in time else "P", "G4 needs a time, P")
             if seconds < 0:
                 raise fail(block.line, f"G4 waits for {seconds:g} s; write P 0 or more")
             self._row(Kind.DWELL, block.line, self.x, self.y, self.z, seconds=seconds)
         if not MOTIONS.issuperset(block.g):
-            self._modes(block, words)
+            self._modes(block)
             self._length_offset(block)
-            self._work_offset(block, words)
-            self._tables(block, words)
+            self._work_offset(block)
+            self._tables(block)
         self.keep_state()
         if 280 in block.g or 300 in block.g:
-            self._home(block, words)
-        self._move(block, words)
+            self._home(block)
+        self._move(block)
         self._check_idle(block.line, contour)
-        if words:
-            raise fail(block.line, f"{next(iter(words))} means nothing in this line")
+        for share in block.shares.values():
+            if share:
+                raise fail(block.line, f"{next(iter(share))} means nothing in this line")
         self._stop(block)
 
-    def _check_axes(self, block: Block) -> None:
-        """Refuse axis words that the control drops, or takes for an error, in the state it is in."""
-        polar = next((letter for letter in block.words if letter in POLAR), "")
-        if polar and not self.dialect.axis_commands.isdisjoint(block.g):
-            raise fail(block.line, f"{polar} means nothing in this line")
-        named = [code for code in block.g if code in MOTIONS]
-        dropping = next((code for code in block.g if code in self.dialect.drops_axes), None)
-        if dropping is not None:
+    def _share(self, block: Block) -> None:
+        """Give each word of a block to the code that takes it; one that none takes, or two, is refused."""
+        motion = self._without_cycle() if 800 in block.g else self.motion
+        kind = (*block.g, None, *block.m, None, *block.words, None, motion, self.cancelled)
+        taken = self._taken.get(kind)
+        if taken is None:
+            if len(self._taken) >= MOST_KINDS:
+                self._taken.clear()
+            taken = self._taken[kind] = self._takers(block, motion)
+        shares: dict[str, dict[str, float]] = {}
+        for letter, taker in taken:
+            shares.setdefault(taker, {})[letter] = block.words[letter]
+        block.shares = shares
+        for code, letter, kept, remedy in self.dialect.corners.looser:
+            value = block.of(code).get(letter) if code in block.g else None
+            if value is not None and value not in kept:
+                raise fail(
+                    block.line,
+                    f"{spell(code)} {letter}{value:g} lets {self.dialect.name} round corners further than "
+                    f"the setting of the machine; {remedy}",
+                )
+        for idle in self._idle & shares.keys():
+            del shares[idle]
+
+    def _takers(self, block: Block, motion: int | None) -> list[tuple[str, str]]:
+        """Each address of a block with the code that takes it."""
+        self._check_codes(block)
+        now = Situation(None if motion is None else spell(motion), self.cancelled)
+        table, rows = self.dialect.words, rows_of(block, self.dialect)
+        try:
+            return [*owners(table, rows, block.words, now, self.dialect.name).items()]
+        except RefusedError as error:
+            raise fail(block.line, str(error)) from None
+
+    def _check_start(self, block: Block) -> None:
+        """Refuse to start the spindle beside a feed where the machine's builder has set which is first."""
+        start = next((row for row in rows_of(block, self.dialect) if not row.before_feed), None)
+        if start is not None and self._feeds(block):
+            word = f"M{self.dialect.m(start.number)}"
             raise fail(
                 block.line,
-                f"{self.dialect.name} drops X, Y and Z beside {spell(dropping)}; write "
-                f"{spell(dropping)} in a line of its own",
-            )
-        if self.dialect.motion_for_axes and (800 in named or (self.cancelled and not named)):
-            raise fail(
-                block.line,
-                f"{self.dialect.name} takes no X, Y or Z while G80 is in force; write G0 in a line before",
+                f"{word} beside a feed: whether {self.dialect.name} starts the spindle before it, the "
+                f"machine's builder has set; write {word} in a line before",
             )
 
     def _check_idle(self, line: int, contour: tuple[float, float]) -> None:
@@ -182,86 +195,25 @@ class Machine(Moving):
             )
         self.idle = 0
 
-    def _moving(self, block: Block) -> int | None:
-        """The motion that a block makes, named in it or in force; None if nothing moves."""
-        if not self.dialect.axis_commands.isdisjoint(block.g):
-            return None
-        letters = set("XYZIJKR") | POLAR
-        if 40 in block.g and self.dialect.bare_dwell_unit is not None and "P" not in block.words:
-            letters.discard("X")  # the time
-        named = next((code for code in block.g if code in MOTIONS - {800}), None)
-        return self.motion if named is None and not block.words.keys().isdisjoint(letters) else named
-
-    def _check_dwell(self, block: Block) -> None:
-        """Refuse a dwell beside a move where nothing says which comes first."""
-        motion = self._moving(block)
-        if motion is not None and not self.dialect.dwells_first:
-            why = "which of them comes first, nothing says"
-            raise fail(block.line, f"G4 beside {spell(motion)}: {why}; write each in a line of its own")
-
-    def _check_shared(self, block: Block) -> None:
-        """Refuse a P or a Q that two codes of a block would take."""
-        takers = {letter: set(block.g) & codes for letter, codes in TAKERS.items()}
-        if not self.dialect.corners.tolerance:
-            takers = {letter: codes - {640} for letter, codes in takers.items()}
-        motion = self._moving(block)
-        for letter, motions in MOTION_TAKERS.items():
-            if motion in motions and (motion not in {20, 30} or self.dialect.arc_turns):
-                takers[letter].add(motion)
-        for letter, codes in takers.items():
-            if letter in block.words and len(codes) > 1:
-                first, second = map(spell, sorted(codes, key=lambda code: (code in MOTIONS, code))[:2])
-                raise fail(
-                    block.line,
-                    f"{first} beside {second}: both take {letter}; write each in a line of its own",
-                )
-
     def _feeds(self, block: Block) -> bool:
         """Whether a block moves at a feed."""
-        named = next((code for code in block.g if code in GROUPS["motion"] - {800}), self.motion)
+        named = next((code for code in block.g if code in MOTIONS - {800}), self.motion)
         return named not in {None, 0} and 530 not in block.g and not block.words.keys().isdisjoint("XYZ")
 
     def _check_codes(self, block: Block) -> None:
+        """Refuse codes that the control does not read, and those that lack a word."""
+        table = self.dialect.words
         for code in block.g:
-            if code in self.dialect.g_codes:
-                continue
-            letters = dict(self.dialect.inert).get(code)
-            if letters is not None:
-                if code in self.dialect.inert_with and letters[0] not in block.words:
-                    raise fail(block.line, f"{spell(code)} needs {letters[0]}")
-                self._check_looser(block, code)
-                for letter in letters:
-                    block.words.pop(letter, None)
-                continue
-            for refused, remedy in self.dialect.unsupported:
-                if code == refused:
-                    raise fail(block.line, f"{spell(code)} is not supported; {remedy}")
-            raise fail(block.line, no_code(spell(code), self.dialect))
-        self._check_together(block)
+            row = table.g.get(code)
+            if row is None:
+                raise fail(block.line, no_code(spell(code), self.dialect))
+            if row.use is Use.REFUSED:
+                raise fail(block.line, f"{row.word} is not supported; {row.remedy}")
+            if row.use is Use.IDLE and row.one_of and not any(letter in block.words for letter in row.one_of):
+                raise fail(block.line, f"{row.word} needs {row.one_of[0]}")
         for code in block.m:
-            if code not in self.dialect.m_codes | self.dialect.inert_m:
+            if code not in table.m:
                 raise fail(block.line, no_code(f"M{code}", self.dialect))
-
-    def _check_together(self, block: Block) -> None:
-        """Refuse codes that the control does not take in one line."""
-        if not self.dialect.both_coolants and {7, 8} <= set(block.m):
-            raise fail(block.line, f"M7 and M8 in one line; {self.dialect.name} wants a line for each")
-        motion = [code for code in block.g if code in GROUPS["motion"] - {800}]
-        takers = motion + [code for code in block.g if code in self.dialect.axis_commands]
-        if len(takers) > 1:
-            names = f"{spell(takers[0])} and {spell(takers[1])}"
-            raise fail(block.line, f"{names} both take the axes; write a line for each")
-
-    def _check_looser(self, block: Block, code: int) -> None:
-        """Refuse a word that lets the control leave the path further than its setting."""
-        for looser, letter, kept, remedy in self.dialect.corners.looser:
-            value = block.words.get(letter)
-            if code == looser and value is not None and value not in kept:
-                raise fail(
-                    block.line,
-                    f"{spell(code)} {letter}{value:g} lets {self.dialect.name} round corners further than "
-                    f"the setting of the machine; {remedy}",
-                )
 
     def _stop(self, block: Block) -> None:
         for code in block.m:

@@ -13,8 +13,8 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import Block, fail
 from mechwright_cam.controls.reading.compensation import Compensation
-from mechwright_cam.controls.reading.groups import EXTENDED, GROUPS, M_GROUPS, spell
 from mechwright_cam.controls.reading.run import Coolant, Ints, Kind, Selection, State, TableWrite
+from mechwright_cam.controls.words.groups import EXTENDED, GROUPS, M_GROUPS, spell
 
 INCH = 25.4
 LARGEST_WHOLE = 99_999_999
@@ -48,7 +48,7 @@ class Modal(Compensation):
     def __init__(self, dialect: Dialect) -> None:
         super().__init__(dialect)
         self.absolute = True
-        self.absolute_centres = dialect.absolute_centres
+        self.absolute_centres = False
         self.selected: int | None = None
         self.to_initial = True
         self.state = self.states[0]
@@ -68,18 +68,17 @@ class Modal(Compensation):
         """Whether X, Y and Z say where the tool goes, and arcs lie in the XY plane."""
         return self.plane == 170 and not self.side and self.left is None
 
-    def _take(self, block: Block, letter: str, missing: str) -> float:
+    def _take(self, block: Block, share: dict[str, float], letter: str, missing: str) -> float:
+        """A word of a code's share, used up; ProgramError where there is none."""
         try:
-            return block.words.pop(letter)
+            return share.pop(letter)
         except KeyError:
             raise fail(block.line, missing) from None
 
-    def _waiting(self, block: Block, letter: str, missing: str) -> float:
+    def _waiting(self, block: Block, share: dict[str, float], letter: str, missing: str) -> float:
         """A time, s: without a point it may be in another unit."""
         bare, unit = self.dialect.bare_dwell_unit, self.dialect.dwell_unit
-        value = self._take(block, letter, missing)
-        if letter == "P" and self.dialect.whole_dwells and "P" not in block.bare:
-            raise fail(block.line, f"P{value:g} has a decimal point, and {self.dialect.name} takes P whole")
+        value = self._take(block, share, letter, missing)
         return value * (bare if bare is not None and letter in block.bare else unit)
 
     def _without_compensation(self, block: Block, name: str) -> None:
@@ -156,8 +155,8 @@ class Modal(Compensation):
 
     def by_centre(self, line: int) -> None:
         """Tell of an arc by its centre: what an earlier program has made of I and J may still hold."""
-        if self.dialect.centres_stay and "centres" not in self.state.stated:
-            self.lacks(line, "G91.1")
+        if "centres" not in self.state.stated:
+            self.lacks(line, "centres", "G91.1")
 
     def _units(self, block: Block) -> None:
         for code in block.g:
@@ -172,26 +171,22 @@ class Modal(Compensation):
                 self.scale = scale
                 self._state("units")
 
-    def _speeds(self, block: Block, words: dict[str, float]) -> None:
+    def _speeds(self, block: Block) -> None:
         if self.dialect.mode_ends_feed and 940 in block.g:
             self.feed = 0.0
-        if "F" in words:
-            self.feed = words.pop("F") * self.scale
+        if "F" in block.words:
+            self.feed = block.of("F").pop("F") * self.scale
             if self.feed < 0:
                 raise fail(block.line, "F is below 0")
-        if "S" in words:
-            rpm = words.pop("S")
+        if "S" in block.words:
+            rpm = block.of("S").pop("S")
             if rpm < 0:
                 raise fail(block.line, "S is below 0")
             self._set(rpm=rpm)
 
-    def _tool(self, block: Block, words: dict[str, float]) -> None:
-        if "T" in words:
-            number = self._whole(block, "T", words.pop("T"))
-            if number > self.dialect.highest_tool:
-                raise fail(
-                    block.line, f"T{number}: {self.dialect.name} takes up to T{self.dialect.highest_tool}"
-                )
+    def _tool(self, block: Block) -> None:
+        if "T" in block.words:
+            number = self._whole(block, "T", block.of("T").pop("T"))
             if number != self.selected:
                 self.selections.append(Selection(block.line, number))
             self.selected = number
@@ -203,9 +198,7 @@ class Modal(Compensation):
             self._without_compensation(block, "M6")
             if self.selected is None:
                 raise fail(block.line, "M6 without a tool; write T before it")
-            self._set(tool=self.selected)
-            if self.dialect.change_stops_spindle:
-                self._set(spindle=0)
+            self._set(tool=self.selected, spindle=0)
             if self.dialect.change_stops_coolant:
                 self._set(coolant="off")
             self.keep_state()
@@ -223,12 +216,10 @@ class Modal(Compensation):
                 self._set(spindle=_SPINDLE[code])
         mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}
         if 9 in block.m:
-            if 7 in block.m or 8 in block.m:
-                raise fail(block.line, "M9 excludes M7 and M8 (coolant)")
             mist = flood = False
         self._set(coolant=_COOLANT[mist or 7 in block.m, flood or 8 in block.m])
 
-    def _modes(self, block: Block, words: dict[str, float]) -> None:
+    def _modes(self, block: Block) -> None:
         before = self.side
         if not COMPENSATING.isdisjoint(block.g):
             late = next((code for code in block.g if code in NOT_BESIDE_COMPENSATION), None)
@@ -268,16 +259,16 @@ class Modal(Compensation):
                 self.begin_compensation(block.line, side, diameter)
                 self._set(side=side, diameter_offset=number)
             elif code in GROUPS["path"]:
-                self._corners(block, words, code)
+                self._corners(block, code)
 
-    def _corners(self, block: Block, words: dict[str, float], code: int) -> None:
+    def _corners(self, block: Block, code: int) -> None:
         """G61 and G64: how far the control may leave the path; P and Q only where the control has them."""
         corners = self.dialect.corners
         if self.side and corners.tolerance:
             raise fail(block.line, f"{spell(code)} while compensation is on; write it before")
         bound = rounding = 0.0
         if code == 640:
-            given = [words.pop(letter, None) if corners.tolerance else None for letter in "PQ"]
+            given = [block.of(code).pop(letter, None) for letter in "PQ"]
             blend, merge = (None if value is None else value * self.scale for value in given)
             bound = corners.bound(blend, merge)
             rounding = max(blend or 0.0, 0.0)
@@ -285,18 +276,19 @@ class Modal(Compensation):
 
     def _number(self, block: Block, letter: str, code: int) -> int:
         """The number of an offset: as it is written, or the tool's where the control takes that."""
-        if letter not in block.words and letter in self.dialect.numbers_needed:
+        share = block.of(code)
+        if letter not in share and letter == self.dialect.words.g[code].needs:
             raise fail(
                 block.line,
                 f"{spell(code)} without {letter} takes what {self.dialect.name} had last; write {letter}",
             )
-        return self._whole(block, letter, block.words.pop(letter, self.state.tool))
+        return self._whole(block, letter, share.pop(letter, self.state.tool))
 
     def _diameter(self, block: Block, code: int) -> tuple[int | None, float]:
         """D number and diameter of G41 and G42: of the tool in the spindle, of the D word's, or D itself."""
         name = spell(code)
         if code in {411, 421}:
-            return None, self._take(block, "D", f"{name} needs the diameter, D") * self.scale
+            return None, self._take(block, block.of(code), "D", f"{name} needs the diameter, D") * self.scale
         number = self._number(block, "D", code)
         if number not in self.diameters:
             raise fail(block.line, f"{name} D{number}: no tool of that number is known, so no diameter")
@@ -310,8 +302,9 @@ class Modal(Compensation):
         if 430 in block.g:
             offset = self._number(block, "H", 430)
         elif 431 in block.g:
-            length = self._take(block, "Z", "G43.1 needs the length, Z") * self.scale
-            if beside := sorted(block.words.keys() & {"X", "Y"}):
+            share = block.of(431)
+            length = self._take(block, share, "Z", "G43.1 needs the length, Z") * self.scale
+            if beside := sorted(share.keys() & {"X", "Y"}):
                 raise fail(block.line, f"G43.1 takes Z alone; write {beside[0]} in a line of its own")
             offset = -1
         elif 490 in block.g:
@@ -343,14 +336,15 @@ class Modal(Compensation):
             f"{self.dialect.name} ({self.dialect.length_moves}); {remedy}",
         )
 
-    def _work_offset(self, block: Block, words: dict[str, float]) -> None:
+    def _work_offset(self, block: Block) -> None:
         for code in block.g:
             if code not in GROUPS["work offset"]:
                 continue
             name = spell(code)
             self._without_compensation(block, name)
-            if code in EXTENDED or (self.dialect.program_numbers and code == 540 and "P" in words):
-                number = self._whole(block, "P", self._take(block, "P", f"{name} needs its number, P"))
+            if code in EXTENDED or block.of(code):
+                missing = f"{name} needs its number, P"
+                number = self._whole(block, "P", self._take(block, block.of(code), "P", missing))
                 name = f"{'G54.1' if code == 540 else name} P{number}"
             if name != self.state.work_offset:
                 self._set(work_offset=name)
@@ -365,17 +359,18 @@ class Modal(Compensation):
         if math.isfinite(self.z):
             self.z = math.nan
 
-    def _tables(self, block: Block, words: dict[str, float]) -> None:
+    def _tables(self, block: Block) -> None:
         """G10 writes into the tables of offsets: whatever it changes, the positions are no longer known."""
         if 100 not in block.g:
             return
         self._without_compensation(block, "G10")
-        said = self._take(block, "L", "G10 needs L")
-        table = next((table for table in self.dialect.tables if table.number == said), None)
+        words, tables = block.of(100), self.dialect.words.tables
+        said = self._take(block, words, "L", "G10 needs L")
+        table = next((table for table in tables if table.number == said), None)
         if table is None:
-            known = ", ".join(f"L{table.number}" for table in self.dialect.tables)
+            known = ", ".join(f"L{table.number}" for table in tables)
             raise fail(block.line, f"G10 L{said:g}: {self.dialect.name} is known to read G10 with {known}")
-        number = self._whole(block, "P", self._take(block, "P", "G10 needs P"))
+        number = self._whole(block, "P", self._take(block, words, "P", "G10 needs P"))
         if not table.first <= number <= table.last:
             places = f"P{table.first} on" if math.isinf(table.last) else f"P{table.first} to P{table.last}"
             raise fail(block.line, f"G10 L{said:g} P{number}: {self.dialect.name} has {places}")

@@ -58,7 +58,7 @@ def run_motion_lines(machine: Modal, lines: Rows, at: int) -> int:
     wrong = lost | ((g > 0) & ~(feed > 0))
     if arc.any():
         wrong[arc] |= _arcs(machine, table, words, arc)
-        if machine.dialect.arc_needs_end:
+        if machine.dialect.words.known["G2"].ends_in_plane:
             wrong |= arc & ~lines.has_word[X : Y + 1, index].any(axis=0)
     faults = np.flatnonzero(wrong)
     count = int(faults[0]) if faults.size else index.size
@@ -162,7 +162,11 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
     if by_radius.size:
         missing[by_radius] = False
         centre[by_radius] = centres_of(
-            start[by_radius], end[by_radius], radius[by_radius], ccw[by_radius], machine.dialect.chord_slack
+            start[by_radius],
+            end[by_radius],
+            radius[by_radius],
+            ccw[by_radius],
+            machine.dialect.arcs.chord_slack,
         )
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow is refused, like all that is not finite
         out, back = start - centre, end - centre
@@ -178,6 +182,6 @@ def _arcs(machine: Modal, table: Array, words: Array, arc: Bools) -> Bools:
         known &= ~missing.any(axis=1)
     for line in table[arc, 1][~np.isnan(given).all(axis=1)][:1].tolist():
         machine.by_centre(int(line))
-    known &= np.abs(turn) >= machine.dialect.arc_least_turn
-    refused: Bools = ~known | machine.dialect.refuses(first, last, machine.scale != 1.0)
+    known &= np.abs(turn) >= machine.dialect.arcs.least_turn
+    refused: Bools = ~known | machine.dialect.arcs.refuses(first, last, machine.scale != 1.0)
     return refused

@@ -6,11 +6,13 @@ from collections.abc import Collection
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.arcs import centre_of
 from mechwright_cam.controls.reading.blocks import POLAR, Block, fail
-from mechwright_cam.controls.reading.groups import CYCLES, GROUPS, TAPPING, spell
 from mechwright_cam.controls.reading.modes import AXES, CENTRES, PLANES
 from mechwright_cam.controls.reading.run import Kind, MachinePlace
 from mechwright_cam.controls.reading.tapping import Tapping
+from mechwright_cam.controls.words.groups import CYCLES, MOTIONS, TAPPING, spell
 
+RETURN = 300
+"""G30: to the second reference point."""
 MOST_TURNS = 1000
 """Turns of one arc beyond which P is a slip of the pen."""
 PLACES = POLAR | set(AXES)
@@ -32,16 +34,14 @@ class Moving(Tapping):
     cancelled = False
     """Whether G80 is in force."""
 
-    def _move(self, block: Block, words: dict[str, float]) -> None:
-        codes = [code for code in block.g if code in GROUPS["motion"]]
+    def _move(self, block: Block) -> None:
+        codes = [code for code in block.g if code in MOTIONS]
         if codes:
             self.cancelled = 800 in codes
         if 800 in codes:  # where cycles are no motions, another one may stand beside it
             self.end_rigid()
             self.motion = self._without_cycle()
         named = next((code for code in codes if code != 800), None)
-        if named in CYCLES and 800 in codes:
-            raise fail(block.line, f"G80 and {spell(named)} exclude each other (cycle)")
         if named is not None:
             if named not in TAPPING:
                 self.end_rigid()
@@ -54,14 +54,12 @@ class Moving(Tapping):
                 self.motion = named
         if named == 10 and not self.feed > 0 and 530 not in block.g:
             raise fail(block.line, "G1 without a feed; write F above 0")
-        goes = self.dialect.axis_commands.isdisjoint(block.g)  # else they take what would name a place
-        axes = goes and not words.keys().isdisjoint(PLACES)
-        centre = goes and self.motion in {20, 30} and not words.keys().isdisjoint("IJKR")
+        words = block.of(self.motion) if self.motion is not None else {}
+        axes = not words.keys().isdisjoint(PLACES)
+        centre = self.motion in {20, 30} and not words.keys().isdisjoint("IJKR")
         if 530 in block.g:
-            self._machine_move(block, words)
+            self._machine_move(block)
         elif axes or centre:
-            if self.motion is None:
-                raise fail(block.line, "an axis without a motion; write G0, G1, G2, G3 or a cycle")
             if self.motion in CYCLES:
                 if self.side or self.plane != 170:
                     raise fail(block.line, "a cycle is read in the XY plane and without compensation only")
@@ -86,19 +84,20 @@ class Moving(Tapping):
 
     def _without_cycle(self) -> int | None:
         """The motion that G80 leaves in force."""
-        if not self.dialect.cycles_apart:
+        if not self.dialect.words.cycles_apart:
             return None
         return self.before_cycle if self.motion in CYCLES else self.motion
 
-    def _home(self, block: Block, words: dict[str, float]) -> None:
+    def _home(self, block: Block) -> None:
         """G28 and G30: by way of a point in work coordinates to the machine's home; without axes all go."""
-        name = "G28" if 280 in block.g else "G30"
+        code = 280 if 280 in block.g else RETURN
+        name, words, row = spell(code), block.of(code), self.dialect.words.g[code]
         if self.side:
             raise fail(block.line, f"{name} while compensation is on; write G40 before")
-        if self.motion in CYCLES and self.dialect.ends_cycles:
+        if self.motion in CYCLES and not row.in_cycles:
             raise fail(block.line, f"{name} while {spell(self.motion)} is in force; write G80 before")
         named = [axis for axis in AXES if axis in words]
-        if not named and not self.dialect.bare_home:
+        if not named and row.one_of:
             raise fail(block.line, f"{name} without an axis sends none home; write G91 {name} Z0")
         axes = named or list(AXES)
         if words.keys() & set(AXES):
@@ -125,7 +124,7 @@ class Moving(Tapping):
         if machine_xy:
             self.machine_xy.append(self.steps)
 
-    def _machine_move(self, block: Block, words: dict[str, float]) -> None:
+    def _machine_move(self, block: Block) -> None:
         """G53: machine coordinates, whose place in the work the text does not know."""
         if self.motion not in {0, 10}:
             raise fail(block.line, "G53 needs G0 or G1")
@@ -135,6 +134,7 @@ class Moving(Tapping):
             raise fail(
                 block.line, "G53 with distances (G91): some controls refuse or skip it; write G90 before"
             )
+        words = block.of(530)
         axes = {axis: words.pop(axis) for axis in AXES if axis in words}
         if not axes:
             raise fail(block.line, "G53 without an axis")
@@ -194,12 +194,13 @@ class Moving(Tapping):
         named = words.keys() & set(AXES)
         target = dict(zip(AXES, self._target(block, words), strict=True))
         start, end = ((place[axes[0]], place[axes[1]]) for place in (here, target))
-        if self.dialect.arc_needs_end and not named & {axes[0], axes[1]}:
+        row = self.dialect.words.known[spell(self.motion or 0)]
+        if row.ends_in_plane and not named & {axes[0], axes[1]}:
             raise fail(
                 block.line,
                 f"{self.dialect.name} takes no arc without {axes[0]} or {axes[1]}; write where it ends",
             )
-        turns = self._whole(block, "P", words.pop("P", 1.0)) if self.dialect.arc_turns else 1
+        turns = self._whole(block, "P", words.pop("P", 1.0))
         if not 1 <= turns <= MOST_TURNS:
             raise fail(block.line, f"P is the number of turns, 1 to {MOST_TURNS}")
         first, second = CENTRES[axes[0]], CENTRES[axes[1]]
@@ -208,7 +209,7 @@ class Moving(Tapping):
                 raise fail(block.line, f"an arc has either R, or {first} and {second}")
             radius = words.pop("R") * self.scale
             try:
-                centre = centre_of(start, end, radius, ccw, self.dialect.chord_slack)
+                centre = centre_of(start, end, radius, ccw, self.dialect.arcs.chord_slack)
             except ValueError as error:
                 raise fail(block.line, str(error)) from None
         elif words.keys() & {first, second}:
@@ -218,7 +219,7 @@ class Moving(Tapping):
             i, j = words.pop(first, 0.0) * self.scale, words.pop(second, 0.0) * self.scale
             centre = (i, j) if self.absolute_centres else (start[0] + i, start[1] + j)
             idle = CENTRES[axes[2]]
-            if self.dialect.arc_idle and words.get(idle) == 0:
+            if row.across and words.get(idle) == 0:
                 del words[idle]
         else:
             raise fail(block.line, f"an arc without a centre; write {first} and {second}, or R")
@@ -268,7 +269,7 @@ class Moving(Tapping):
     def _cycle(self, block: Block, words: dict[str, float], code: int) -> None:
         line, name = block.line, spell(code)
         if "return" not in self.state.stated:
-            self.lacks(line, "G98")
+            self.lacks(line, "return", "G98")
         if not self.absolute:
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
         asked = "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} | TAPPING else "")
@@ -276,15 +277,18 @@ class Moving(Tapping):
             self.sticky.setdefault("P", 0.0)
         for letter in asked:  # what it does not ask for is left over, and refused
             if letter in words:
-                time = self._waiting(block, "P", "") if letter == "P" else words.pop(letter) * self.scale
+                time = (
+                    self._waiting(block, words, "P", "") if letter == "P" else words.pop(letter) * self.scale
+                )
                 self.sticky[letter] = time
         if self.sticky.get("P", 0.0) < 0:
             raise fail(line, f"{name} waits for {self.sticky['P']:g} s; write P 0 or more")
-        if (often := words.pop(self.dialect.repeats, 1.0)) != 1:
-            often_word = f"{self.dialect.repeats}{often:g}"
-            raise fail(
-                line, f"{name} is run as often as {often_word} says, which is not read; write each hole"
-            )
+        for letter in self.dialect.words.known[name].pointless:
+            if (often := words.pop(letter, 1.0)) != 1:
+                raise fail(
+                    line,
+                    f"{name} is run as often as {letter}{often:g} says, which is not read; write each hole",
+                )
         polar = None if words.keys().isdisjoint(POLAR) else self._polar(block, words, self.x, self.y)
         here = {axis: words.pop(axis) * self.scale for axis in "XY" if axis in words}
         if polar is not None:

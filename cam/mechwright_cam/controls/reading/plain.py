@@ -205,19 +205,19 @@ class PlainLines(Rows):
 
     Examples
     --------
-    >>> lines = PlainLines("G1 X1.5 F200\nM30\nX-.5Y2", Dialect(frozenset({10})))
+    >>> lines = PlainLines("G1 X1.5 F200\nM30\nX-.5Y2", Dialect())
     >>> lines.plain.tolist(), lines.words[X].tolist()
     ([True, False, True], [1.5, nan, -0.5])
     """
 
     def __init__(self, text: str, dialect: Dialect, *, block_delete: bool = False) -> None:
-        most, lines = dialect.line_length, text.split("\n")
+        most, lines = dialect.text.longest, text.split("\n")
         optional = [index for index, line in enumerate(lines) if line[:1] == "/"] if "/" in text else []
         for index in optional:  # what is left is a line as any other, or is skipped as an empty one is
             lines[index] = lines[index][1:] if len(lines[index]) <= most else _TOO_LONG
         extras = CommentsAndStates([line if len(line) <= most else _TOO_LONG for line in lines], dialect)
         data = b"\n" + extras.text.encode("utf-8", "surrogatepass") + b"\n"
-        kind = np.frombuffer(data.translate(_CAPITALS if dialect.capitals else _KIND), dtype=np.uint8)
+        kind = np.frombuffer(data.translate(_CAPITALS if dialect.text.capitals else _KIND), dtype=np.uint8)
         ends = np.flatnonzero(kind == _END)
         length = np.diff(ends)
         self.plain = np.ones(length.size, dtype=np.bool_)
@@ -272,15 +272,15 @@ class PlainLines(Rows):
         wrong = np.bincount(word, minlength=1)[word] > 1
         wrong[1:] |= (line[1:] == line[:-1]) & (column[1:] == N)
         wrong |= _meaningless(column, value)
-        wrong |= (column == N) & ((marks[at + 1] == _POINT_MARK) | ~(value <= dialect.largest_n))
+        wrong |= (column == N) & ((marks[at + 1] == _POINT_MARK) | ~(value <= dialect.words.of("N").most))
         wrong |= ~(np.abs(value) <= LARGEST_NUMBER)
-        if dialect.point_needed:
-            length = (column >= X) & (column <= R)
-            if dialect.feeds_with_point in ({"inch", "always"} if inches else {"always"}):
-                length |= column == F
-            wrong |= length & (marks[at + 1] != _POINT_MARK) & (value != 0)
-        if "S" in dialect.whole_words:
-            wrong |= (column == S) & (marks[at + 1] == _POINT_MARK)
+        pointed = marks[at + 1] == _POINT_MARK
+        for here in range(X, len(LETTERS)):
+            point = dialect.words.of(LETTERS[here]).point
+            if point == "needed" or (point == "inches" and inches):
+                wrong |= (column == here) & ~pointed & (value != 0)
+            elif point == "never":
+                wrong |= (column == here) & pointed
         self.words[column, line] = value
         struck = line[wrong]
         self.plain[struck] = False

@@ -54,7 +54,7 @@ def interpret(
         text = dialect.translate(text, block_delete)
     lines, plain = text.split("\n"), PlainLines(text, dialect, block_delete=block_delete)
     source, called = Lines(lines), set[int]()
-    others = (line for line in compress(lines, ~plain.plain) if len(line) <= dialect.line_length)
+    others = (line for line in compress(lines, ~plain.plain) if len(line) <= dialect.text.longest)
     if dialect.macros and uses_macros("\n".join(others)):
         source = dialect.macros(lines, machine.system_value, machine.look_anew)
     elif dialect.calls and uses_calls(list(compress(lines, ~plain.plain))):
@@ -76,12 +76,12 @@ def interpret(
                 source.at = after
                 machine.check_steps(after)
                 continue
-        elif dialect.percent and raw.strip(" \t") == "%":
+        elif dialect.text.percent and raw.strip(" \t") == "%":
             percents += 1
             if percents == 1 and any(map(str.strip, lines[:index])):
                 raise fail(index + 1, "a % without one in the first line; put one there, or take this out")
             if percents == 2:
-                machine.ended = machine.ended or dialect.percent_ends
+                machine.ended = machine.ended or dialect.text.percent_ends
                 return replace(machine.result(len(lines)), beyond=_beyond(lines, index, dialect, called))
             continue
         block = (plain.plain[index] and plain.block(index)) or blocks.read(index + 1, raw)

@@ -10,7 +10,6 @@ from mechwright.errors import ProgramError
 from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.arcs import sweep_of
 from mechwright_cam.controls.reading.blocks import fail
-from mechwright_cam.controls.reading.groups import spell
 from mechwright_cam.controls.reading.run import (
     COLUMNS,
     WIDTH,
@@ -23,6 +22,8 @@ from mechwright_cam.controls.reading.run import (
     State,
     TableWrite,
 )
+from mechwright_cam.controls.words.groups import spell
+from mechwright_cam.controls.words.kept import Then
 
 MOST_PECKS = 10_000
 """Pecks of one hole beyond which Q is a slip of the pen."""
@@ -100,9 +101,11 @@ class Recorder:
         places = " and ".join(filter(None, (", ".join(axes[:-1]), axes[-1])))
         return fail(line, f"{what} from an unknown position{since}; move to {places} first")
 
-    def lacks(self, line: int, word: str) -> None:
-        """Tell that a line hangs on a word that the program has not said."""
-        (self.hoped if word in self.dialect.usual else self.unsaid).append((line, word))
+    def lacks(self, line: int, state: str, word: str) -> None:
+        """Tell that a line hangs on a state that the program has not set, and the word that sets it."""
+        then = self.dialect.then(state)
+        if then in {Then.REFUSED, Then.TOLD}:
+            (self.hoped if then is Then.TOLD else self.unsaid).append((line, word))
 
     @property
     def steps(self) -> int:
@@ -163,11 +166,11 @@ class Recorder:
         Raises ProgramError if the control takes it for a full circle.
         """
         sweep = sweep_of(start, end, centre, ccw)
-        if abs(sweep) < self.dialect.arc_least_turn:
+        if abs(sweep) < self.dialect.arcs.least_turn:
             raise fail(
                 line,
                 f"the arc turns by {abs(sweep):.1g} rad; {self.dialect.name} takes an arc below "
-                f"{self.dialect.arc_least_turn:g} rad for a full circle; write a line (G1)",
+                f"{self.dialect.arcs.least_turn:g} rad for a full circle; write a line (G1)",
             )
         return sweep
 
@@ -180,9 +183,9 @@ class Recorder:
         """
         first, last = math.dist(start, centre), math.dist(end, centre)
         error = abs(first - last)
-        if min(first, last) <= self.dialect.arc_least:
+        if min(first, last) <= self.dialect.arcs.least:
             raise fail(line, f"an arc of radius {min(first, last):.4g}")
-        if self.dialect.refuses(first, last, self.scale != 1.0):
+        if self.dialect.arcs.refuses(first, last, self.scale != 1.0):
             raise fail(
                 line,
                 f"the arc ends {error:.4f} mm nearer or further from its centre than it starts "
@@ -220,11 +223,11 @@ class Recorder:
         columns: dict[str, Any] = {name: table[:, at].copy() for name, at in COLUMNS.items()}
         for name in ("kind", "line", "state"):
             columns[name] = columns[name].astype(np.int64)
-        if self.dialect.feed_mode_stays:
+        if self.dialect.then("feed mode") in {Then.REFUSED, Then.TOLD}:
             said = np.array(["feed mode" in state.stated for state in self.states])[columns["state"]]
             fed = np.isin(columns["kind"], (Kind.FEED, Kind.ARC)) & ~said
             for line in columns["line"][fed][:1].tolist():
-                self.lacks(line, "G94")
+                self.lacks(line, "feed mode", "G94")
         return Run(
             **columns,
             states=tuple(self.states),

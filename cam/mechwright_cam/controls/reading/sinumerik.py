@@ -16,52 +16,15 @@ from collections.abc import Sequence
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading.blocks import NUMBER, fail
+from mechwright_cam.controls.words.sinumerik import RENAMED, WORDS
+from mechwright_cam.controls.words.table import Use
 
 NAME = "SINUMERIK"
 LONGEST = 512
 """Characters of a block."""
 INCHES, METRIC = "G700", "G710"
-G_WORDS = {code: code for code in ("G0", "G1", "G2", "G3", "G17", "G40", "G64", "G90", "G91", "G94")} | {
-    "G54": "G54",
-    "G55": "G55",
-    "G56": "G56",
-    "G57": "G57",
-    "G60": "G61",
-    INCHES: "G20",
-    METRIC: "G21",
-}
-"""G words, and what they are to the interpreter."""
 WORK_OFFSETS = frozenset({"G54", "G55", "G56", "G57"})
-INERT = frozenset({"COMPOF"})
-"""Words that take back what an earlier program has set, and change nothing else."""
-M_CODES = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 30})
-_UNITS = "it leaves feeds and offsets in other units; write G710, or G700 in inches"
-_SUPA = "it leaves some frames in force; write SUPA"
-_NO_SIDE = "cutter compensation is not read; post the path of the tool's centre"
-_ROUNDING = "it rounds corners as far as its settings let it; write G64, or G60 for exact stops"
-_FRAME = "it shifts or turns the work; write G54 to G57"
-_CYCLE = "cycles are not read; post the moves of the holes"
-_JUMP = "parameters, jumps and calls are not read; post the program without them"
-REFUSED = {
-    **dict.fromkeys(("G70", "G71"), _UNITS),
-    **dict.fromkeys(("G53", "G153"), _SUPA),
-    **dict.fromkeys(("G41", "G42"), _NO_SIDE),
-    **dict.fromkeys(("G641", "G642", "G643", "G644", "G645", "CYCLE832", "CTOL", "OTOL", "ADIS"), _ROUNDING),
-    **dict.fromkeys(
-        ("COMPON", "COMPCURV", "COMPCAD", "COMPSURF"), "it puts curves through lines; write COMPOF"
-    ),
-    **dict.fromkeys(("G58", "G59", "TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE"), _FRAME),
-    **dict.fromkeys(("MIRROR", "AMIRROR", "G500", "CYCLE800"), _FRAME),
-    **dict.fromkeys(("MCALL", "CYCLE"), _CYCLE),
-    **dict.fromkeys(("R", "IF", "GOTOF", "GOTOB", "WHILE", "FOR", "CALL", "DEF", "PROC"), _JUMP),
-    **dict.fromkeys(("M17", "RET"), _JUMP),
-    "T": "call tools by number, such as T3",
-    "(": "comments stand behind ;",
-    "TURN": "write a block for each turn",
-    "AC": "write places and centres as plain numbers",
-    "IC": "write places and centres as plain numbers",
-}
-"""Words that the control knows and that are not read, each with what to do instead."""
+_ADDRESSES = frozenset(letter for row in WORDS.codes for letter in row.takes) | frozenset("NST")
 _HEADER = re.compile(r"%_N_\w+_MPF\s*")
 _MESSAGE = re.compile(r'\s*(?:N[0-9]+\s*)?MSG\s*\(\s*(?:"([^"()]*)")?\s*\)\s*(?:;.*)?', re.IGNORECASE)
 _FRAME_SET = re.compile(
@@ -197,8 +160,9 @@ class _Reading:
         return words
 
     def _refused(self, number: int, word: str) -> ProgramError:
-        name = word if word in REFUSED else re.sub(r"[0-9]+$", "", word)
-        what = REFUSED.get(name, "post the program without it")
+        """The error of a word that is not read; the row of its name says what to write instead."""
+        row = WORDS.known.get(word) or WORDS.known.get(re.sub(r"[0-9]+$", "", word))
+        what = row.remedy if row is not None and row.remedy else "post the program without it"
         return fail(number, f"{word} is no word that is read in programs for {NAME}; {what}")
 
     def _dwell(self, number: int, words: list[tuple[str, str]], names: set[str]) -> str:
@@ -209,47 +173,34 @@ class _Reading:
         return f"G4 P{seconds}"
 
     def _word(self, number: int, name: str, value: str) -> str:
-        if name == "G":
-            return self._g(number, f"G{value}")
-        if name == "M":
-            return self._m(number, int(value))
-        if name == "D":
-            if value not in {"0", "1"}:
+        """What one word comes to, by its row or as an address of other rows."""
+        row = WORDS.known.get(name + value)
+        if row is None or row.use is Use.REFUSED:
+            if name in _ADDRESSES and value:
+                return f"{RENAMED.get(name, name)}{value}"
+            if name == "D":
                 raise fail(
                     number, f"D{value} is an edge that the tools of a job do not have; write D1, or D0"
                 )
-            self.edge = int(value)
-            return "G43" if self.edge else "G49"
-        if name == "SUPA" and not value:
-            return "G53"
-        if name in INERT and not value:
-            return ""
-        if name == "CR" and value:
-            return f"R{value}"
-        if len(name) == 1 and name in "NXYZIJFST":
-            return f"{name}{value}"
-        raise self._refused(number, name)
+            raise self._refused(number, name + value if name in {"G", "M"} else name)
+        match name:
+            case "G":
+                self._g(number, row.word)
+            case "M":
+                self.ended = self.ended or row.word in {"M2", "M30"}
+                self.edge = None if row.word == "M6" else self.edge
+            case "D":
+                self.edge = int(value)
+        return "" if row.use is Use.IDLE else row.becomes or row.word
 
-    def _g(self, number: int, word: str) -> str:
-        if word not in G_WORDS:
-            raise self._refused(number, word)
+    def _g(self, number: int, word: str) -> None:
+        """Note what a G word says for others."""
         if word in {INCHES, METRIC}:
             if self.units not in {"", word}:
                 raise fail(number, f"{word} in a program that has begun with {self.units}; keep to one")
             self.units = word
         if word in WORK_OFFSETS:
             self.shifted = False
-        return G_WORDS[word]
-
-    def _m(self, number: int, code: int) -> str:
-        if code not in M_CODES:
-            raise self._refused(number, f"M{code}")
-        if code in {2, 30}:
-            self.ended = True
-        if code == 6:
-            self.edge = None  # which edge holds after a change, a setting of the machine says
-            return "M6 G49"
-        return f"M{code}"
 
     def _together(self, number: int, words: list[tuple[str, str]], names: set[str]) -> None:
         """Refuse words that mean something only with others."""

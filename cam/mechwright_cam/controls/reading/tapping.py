@@ -3,9 +3,9 @@
 import math
 
 from mechwright_cam.controls.reading.blocks import Block, fail
-from mechwright_cam.controls.reading.groups import spell
 from mechwright_cam.controls.reading.modes import Modal
 from mechwright_cam.controls.reading.run import Kind
+from mechwright_cam.controls.words.groups import spell
 
 LEFT = 740
 """G74, which turns backwards into the hole."""
@@ -25,8 +25,8 @@ class Tapping(Modal):
             raise fail(line, "G33.1 with X or Y; go there before")
         if not self.absolute:
             raise fail(line, "G33.1 with distances (G91) is not supported; write G90")
-        bottom = self._take(block, "Z", "G33.1 needs Z") * self.scale
-        pitch = self._take(block, "K", "G33.1 needs the pitch, K") * self.scale
+        bottom = self._take(block, words, "Z", "G33.1 needs Z") * self.scale
+        pitch = self._take(block, words, "K", "G33.1 needs the pitch, K") * self.scale
         if not pitch > 0:
             raise fail(line, f"G33.1 needs a pitch K above 0, not {pitch:g}")
         if not self.state.spindle_rotation:

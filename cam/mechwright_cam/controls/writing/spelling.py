@@ -7,6 +7,7 @@ from typing import ClassVar
 from mechwright_cam.controls.contract import METRIC, Control
 from mechwright_cam.controls.dialect import Corners, Dialect
 from mechwright_cam.controls.offsets import DOffset
+from mechwright_cam.controls.words.kept import left_over
 from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer, with_numbers
 from mechwright_cam.program.moves import Program, ToolSection
@@ -34,6 +35,20 @@ class Spelling(Control):
     """The motion in force after a retract."""
     modes: ClassVar[tuple[str, ...]] = ("G17", METRIC, "G40", "G49", "G80", "G90", "G94")
     """The safe start: every mode that the program relies on; in inches with G20 for G21."""
+
+    @property
+    def compensates(self) -> bool:
+        """Whether it has cutter compensation at all, which an earlier program may have left on."""
+        return self.dialect.then("cutter compensation") is not None
+
+    takes_back: ClassVar[str] = ""
+    """How hands take back what an earlier program has left and none shows."""
+
+    @property
+    def leftover(self) -> str:
+        """The states that no program shows, and how hands take them back."""
+        states = left_over(self.dialect.kept)
+        return f"{states} of an earlier program: {self.takes_back}" if states else ""
 
     @property
     def decimals(self) -> int:

@@ -15,6 +15,7 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.pages.setup_sheet.beds import bed_and_clamp_lines
 from mechwright_cam.pages.setup_sheet.compensation import lines
+from mechwright_cam.pages.setup_sheet.ends import about_ends
 from mechwright_cam.pages.setup_sheet.holding import edge_line, holding_lines
 from mechwright_cam.pages.setup_sheet.probing import about_measuring, about_probing
 from mechwright_cam.pages.setup_sheet.several import (
@@ -25,6 +26,7 @@ from mechwright_cam.pages.setup_sheet.several import (
     quantity_text,
 )
 from mechwright_cam.pages.setup_sheet.tapping import about_taps
+from mechwright_cam.pages.setup_sheet.zero import plane, second_plane
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
@@ -88,10 +90,11 @@ def steps(
     needs = (*control.needs(job.settings), *by_hand)
     if control.leftover:
         needs += (f"The program does not take back {control.leftover}.",)
+    needs += about_ends(job, tools, reach, to)
     return [
         *([Step(BEFORE, needs)] if needs else []),
         _with_reach(_turn(job, to) if over else _stock(job, deepest, to), None if job.jaws else reach, to),
-        _second_plane(job, offset, to) if over else _plane(job, offset, to),
+        Step(f"Set {offset} X and Y", (second_plane if over else plane)(job, offset, to)),
         *([Step("Or probe it", about_probing(job, offset, probing, to))] if probing else []),
         *([] if touched else [_height(job.settings.work_offset, control)]),
         *(
@@ -113,17 +116,6 @@ def steps(
         *([Step("Tapping", taps)] if (taps := about_taps(used, control)) else []),
         _run(job, control, file_names, to, touched=touched),
     ]
-
-
-def origin_words(job: Job) -> str:
-    """What X0 Y0 is."""
-    bored = any(isinstance(feature, Bore) and feature.centre == (0.0, 0.0) for feature in job.features)
-    of = job.part.placed[0].label if isinstance(job.part, Nest) else "the part"
-    return {
-        "axis": f"the axis of {of}" + (" (its bore)" if bored else ""),
-        "corner": "the lower left corner of the stock",
-        "centre": "the centre of the stock",
-    }[job.settings.origin]
 
 
 def _stock(job: Job, deepest: float, to: Lengths) -> Step:
@@ -250,65 +242,6 @@ def _turn(job: Job, to: Lengths) -> Step:
     else:  # that edge lay along X on the first side, another one need not be parallel to it
         lines.append(f"Indicate {straight} to {to.with_unit(0.02)}.")
     return Step("Turn the plate over", tuple(lines))
-
-
-def _second_plane(job: Job, offset: str, to: Lengths) -> Step:
-    match job.settings.second_side.locate:
-        case "dowels":
-            places = " and ".join(f"X {to.signed(x)}, Y {to.signed(y)}" for x, y in job.pick_up)
-            how = f"The dowels are at {places} in {offset}: indicate one to {to.with_unit(0.01)}."
-            if job.settings.origin == "axis":
-                how += f" These are X and Y of the first side, so {offset} X and Y may be copied from it."
-        case "bore":
-            ((x, y),) = job.pick_up
-            axis = f"Its axis is X {to.signed(x)}, Y {to.signed(y)} in {offset}."
-            how = f"Indicate the largest bore to {to.with_unit(0.01)}. {axis}"
-        case "edges":
-            one, two = datum_edges(job, to)
-            how = (
-                f"The {one.name} edge is X {to.signed(one.at)}, the {two.name} edge is Y "
-                f"{to.signed(two.at)}: they "
-                "are the first side's left and front edges, so that the plate's true size does not matter. "
-                f"With an edge finder of radius r: on the {one.name} edge X reads {one.reads}, on the "
-                f"{two.name} edge Y {two.reads}."
-            )
-    return Step(f"Set {offset} X and Y", (how,))
-
-
-@dataclass(frozen=True)
-class Edge:
-    """An edge of the stock from which X0 or Y0 is found; what the axis reads with an edge finder on it."""
-
-    name: str
-    at: float
-    reads: str
-
-
-def datum_edges(job: Job, to: Lengths) -> tuple[Edge, Edge]:
-    """The edges of the stock from which X0 and Y0 are found."""
-    x, y = job.datum
-    right, rear = x == job.stock[2], y == job.stock[3]
-    return (
-        Edge("right" if right else "left", x, f"{to.signed(x)} {'+' if right else '−'} r"),
-        Edge("rear" if rear else "front", y, f"{to.signed(y)} {'+' if rear else '−'} r"),
-    )
-
-
-def _plane(job: Job, offset: str, to: Lengths) -> Step:
-    x0, y0, _, _ = job.stock
-    lines = [f"X0 Y0 is {origin_words(job)}."]
-    if job.settings.origin == "corner":
-        lines.append(
-            f"With an edge finder of radius r: on the left edge set {offset} X so that X reads −r, "
-            "on the front edge Y so that Y reads −r."
-        )
-    else:
-        lines.append(
-            f"The stock's left edge is X {to.signed(x0)}, its front edge is Y {to.signed(y0)}. With an edge "
-            f"finder of radius r: on the left edge set {offset} X so that X reads {to.signed(x0)} − r, on "
-            f"the front edge Y so that Y reads {to.signed(y0)} − r."
-        )
-    return Step(f"Set {offset} X and Y", tuple(lines))
 
 
 def _height(place: str, control: Control) -> Step:

@@ -17,8 +17,9 @@ from mechwright_cam.pages.setup_sheet.compensation import value
 from mechwright_cam.pages.setup_sheet.hand_machine import by_hand_lines, room_of
 from mechwright_cam.pages.setup_sheet.inspection import inspection
 from mechwright_cam.pages.setup_sheet.levels import side_view
-from mechwright_cam.pages.setup_sheet.procedure import datum_edges, origin_words, steps
+from mechwright_cam.pages.setup_sheet.procedure import steps
 from mechwright_cam.pages.setup_sheet.several import quantity_text
+from mechwright_cam.pages.setup_sheet.zero import datum_edges, origin_words
 from mechwright_cam.pages.trace import trace
 from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.job import Job

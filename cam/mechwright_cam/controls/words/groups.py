@@ -21,14 +21,13 @@ M_GROUPS: dict[str, frozenset[int]] = {
     "tool change": frozenset({6}),
     "spindle": frozenset({3, 4, 5, 19, 29}),
 }
-"""M groups. Coolant is none: M7 and M8 may stand in one line."""
+"""M groups. Coolant is none: on some controls M7 and M8 may stand in one line."""
 
 G_GROUP = {code: name for name, codes in GROUPS.items() for code in codes}
-CYCLES_APART = {code: name for code, name in G_GROUP.items() if code != 800}
-"""The same where cycles are a group of their own: G80 may stand beside a motion."""
+M_GROUP = {code: name for name, codes in M_GROUPS.items() for code in codes}
+MOTIONS = GROUPS["motion"]
 STOPPING = frozenset({5, 9})
 """M codes that some controls carry out behind the move of their line."""
-M_GROUP = {code: name for name, codes in M_GROUPS.items() for code in codes}
 
 TAPPING = frozenset({740, 840})
 """Tapping cycles, left-hand and right-hand."""
@@ -44,6 +43,18 @@ def spell(code: int) -> str:
     """
     whole, tenth = divmod(code, 10)
     return f"G{whole}.{tenth}" if tenth else f"G{whole}"
+
+
+def tenths(word: str) -> int:
+    """The number of a code: of G in tenths, of M as it is; 0 for any other name.
+
+    >>> tenths("G59.1"), tenths("M30"), tenths("SUPA")
+    (591, 30, 0)
+    """
+    number = word[1:]
+    if word[0] not in "GM" or not number.replace(".", "").isdigit():
+        return 0
+    return round(float(number) * (10 if word[0] == "G" else 1))
 
 
 EXTENDED = frozenset({541, 1540})

@@ -1,0 +1,32 @@
+"""The words of Haas mills: the operator's manual, and custom of the trade."""
+
+from dataclasses import replace
+
+from mechwright_cam.controls.words.common import RS274
+from mechwright_cam.controls.words.fanuc import SHIFTS, fanuc_like
+from mechwright_cam.controls.words.kept import Kept, Then, everywhere, feed_mode, shown_by_none
+from mechwright_cam.controls.words.table import Address, Use, g, m
+
+OFFSETS = 200
+"""The highest H and D."""
+
+WORDS = (
+    fanuc_like("L")
+    .but(
+        *g("G154", "P", one_of=("P",)),
+        *g("G50 G69 G15 G97", use=Use.IDLE),
+        *g("G103 G187", "P", use=Use.IDLE),
+        *m("M31 M33 M88 M89", use=Use.IDLE),
+    )
+    .bounded(
+        Address("F", 0, point="needed"),  # setting 77, as it comes
+        *(replace(RS274.of(letter), most=OFFSETS) for letter in "HD"),
+    )
+)
+
+KEPT = (
+    *everywhere(),
+    feed_mode(Then.RESET),  # M30 and RESET bring G94 back
+    Kept("smoothness", "G187", Then.RESET),
+    *shown_by_none(**SHIFTS, mirror="G101", a_turn="G68"),
+)
