@@ -73,17 +73,20 @@ class Case:
         """Whether (n,) at points above levels something is left by the coarse chords before some."""
         (places, tree), every = self.cuts, self.coarse
         widest = max(tool.radius for tool in self.tools.values())
-        point, cut = tree.query(shapely.points(points), predicate="dwithin", distance=widest)
-        early = places[cut] < before[point]
-        point, chord = point[early], places[cut][early]
-        away, z = nearest(points[point], every.a[chord], every.b[chord])
-        height, wide = level[point] + 0.001 - z, np.zeros(point.size)
-        for number in np.unique(every.tool[chord]).tolist():
-            mine = every.tool[chord] == number
-            own = every.tool[before[point[mine]]] == number  # whose whole width goes where its tip has been
-            wide[mine] = self.tools[number].at(np.where(own, TOP, height[mine]))
         left = np.asarray(shapely.contains_xy(self.plate, points[:, 0], points[:, 1]))
-        left[point[(away <= wide + COARSE) & (height >= 0)]] = False
+        for reach in (0.1 * widest, 0.4 * widest, widest):  # most are cleared by what went close by
+            open_ = np.flatnonzero(left)
+            spots = shapely.points(points[open_])
+            point, cut = tree.query(spots, predicate="dwithin", distance=reach)
+            early = places[cut] < before[open_[point]]
+            point, chord = open_[point[early]], places[cut][early]
+            away, z = nearest(points[point], every.a[chord], every.b[chord])
+            height, wide = level[point] + 0.001 - z, np.zeros(point.size)
+            for number in np.unique(every.tool[chord]).tolist():
+                mine = every.tool[chord] == number
+                own = every.tool[before[point[mine]]] == number  # all of it goes where its tip has been
+                wide[mine] = self.tools[number].at(np.where(own, TOP, height[mine]))
+            left[point[(away <= wide + COARSE) & (height >= 0)]] = False
         return left
 
 
@@ -273,7 +276,7 @@ def holding(case: Case) -> None:
     """Each piece of the part that is cut free of the plate is held by two tabs that reach the frame."""
     bottom, rim = case.levels[-1][1], shapely.boundary(case.plate).buffer(0.05)
     low = case.coarse.only(case.coarse.fed).below(bottom + SAG)
-    gone = shapely.buffer(low.lines(), low.radii(case.tools, bottom + SAG), quad_segs=16)
+    gone = shapely.buffer(low.lines(), low.radii(case.tools, bottom + SAG), quad_segs=8)
     for piece in shapely.get_parts(case.levels[-1][2]) if case.hold["method"] == "tabs" else ():
         outer = shapely.Polygon(piece.exterior)
         free = shapely.union_all(gone[shapely.dwithin(shapely.boundary(outer), gone, 0.1)])

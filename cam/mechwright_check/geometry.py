@@ -25,7 +25,7 @@ MOST = 3_000_000
 
 @dataclass(frozen=True)
 class Cutter:
-    """The outline of a tool: a cone from its tip on, then a cylinder; how deep it cuts, and what else is said."""
+    """The outline of a tool: a cone from its tip on, then a cylinder; its depth, and what else is said."""
 
     kind: str
     radius: float

@@ -17,8 +17,8 @@ from mechwright.arrays import Array
 
 MICRONS = 1000.0
 NOISE = 1e-6
-"""Corners of chords lie so near to their arc, mm; the centre of a circle through three of them is off by more,
-as the square of its radius over a chord's length."""
+"""Corners of chords lie so near to their arc, mm; the centre of a circle through three of them is off by
+more, as the square of its radius over a chord's length."""
 FITS = 1e-4
 """Corners of an arc lie so near to it, mm: a fifth of a chord's own error."""
 LEAST = 4
