@@ -54,7 +54,7 @@ def load(path: Path) -> dict[str, Any]:
 
 
 def texts_of(found: dict[str, Any], folder: Path, more: list[Path], notes: list[str]) -> dict[str, str]:
-    """The program's files by name; all that the certificate names, beside it or of ``more``, have its hash."""
+    """The program's files by name; all that the certificate names, beside it or in ``more``, has its hash."""
     given = {path.name: path for path in more}
     for file in [{"what": "program", **one} for one in found["files"]] + found["bound"]:
         name = Path(file["name"]).name
@@ -110,7 +110,7 @@ def cutter(tool: dict[str, Any]) -> Cutter:
     radius, tip, slope = tool["radius"] / 1000, tool["tip"] / 1000, tool["slope"] or 0.0
     if not (0 < radius < 200 and 0 <= tip <= radius and slope >= 0 and (slope or tip == radius)):
         raise RefutedError("a tool of the certificate has no shape")
-    return Cutter(tool["kind"], radius, tip, slope, tool)
+    return Cutter(tool["kind"], radius, tip, slope, tool["flute_length"] / 1000, tool)
 
 
 def compare(case: Case, claimed: dict[str, Any]) -> None:
@@ -137,4 +137,4 @@ def compare(case: Case, claimed: dict[str, Any]) -> None:
             np.abs(moves[:, column] - values[np.searchsorted(places, np.arange(len(kind)), "right") - 1])
             > 0.01
         )
-    case.refuse(wrong, "the certificate claims another move here", index)
+    case.bad(wrong, "the certificate claims another move here", index)

@@ -1,16 +1,18 @@
 """The part as a drawing has it, for certificates and for programs without one; needs ezdxf.
 
-Layers: OUTLINE, BORE, OPENING and 0 hold contours through the plate, POCKET_3.5 the contour of a recess 3.5 mm
+Layers: OUTLINE, BORE, OPENING and 0 hold contours through the plate, POCKET_3.5 that of a recess 3.5 mm
 deep, POCKET_5_FROM_2 one that begins 2 mm down; CENTRE, TEXT, OPEN and DEFPOINTS hold nothing that is cut.
 """
 
 import argparse
 import re
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import shapely
+import shapely.affinity
 
 from mechwright_check import RefutedError, UnknownError
 from mechwright_check.certificate import content, cutter, program
@@ -28,21 +30,22 @@ GAP = 0.001
 def levels_of(path: Path, thickness: float) -> list[tuple[float, float, Any]]:
     """The levels of a drawn plate, z = 0 on its top, in the drawing's own coordinates."""
     try:
-        import ezdxf
         import ezdxf.path
+        from ezdxf.filemanagement import readfile
+        from ezdxf.lldxf.const import DXFError
     except ImportError:
         raise UnknownError("drawings need ezdxf: pip install 'mechwright-check[dxf]'") from None
     content(path)
     curves: dict[str, list[Any]] = {}
     try:
-        document = ezdxf.readfile(path)
+        document = readfile(path)
         for entity in document.modelspace():
             if (layer := entity.dxf.layer.upper()) not in IDLE:
                 line = ezdxf.path.make_path(entity).flattening(SAG)
                 curves.setdefault(layer, []).append(np.array([(p.x, p.y) for p in line]))
         if document.units not in {0, 4}:
             raise UnknownError(f"{path.name}: its units are not millimetres")
-    except (OSError, ezdxf.DXFError, TypeError, ValueError, AttributeError, LookupError) as error:
+    except (OSError, DXFError, TypeError, ValueError, AttributeError, LookupError) as error:
         raise UnknownError(f"{path.name}: cannot be read as a drawing ({type(error).__name__})") from None
     through, recesses = [], []
     for layer, lines in curves.items():
@@ -50,13 +53,14 @@ def levels_of(path: Path, thickness: float) -> list[tuple[float, float, Any]]:
         if not (recess or THROUGH.fullmatch(layer)):
             raise UnknownError(f"{path.name}: the layer {layer!r:.40} has no meaning here")
         through += [] if recess else _contours(lines, path)
-        for shape in _contours(lines, path) if recess else ():
-            recesses.append((float(recess[2] or 0), min(float(recess[1]), thickness), shape))
+        if recess:
+            top, bottom = float(recess[2] or 0), min(float(recess[1]), thickness)
+            recesses += [(top, bottom, shape) for shape in _contours(lines, path)]
     plate = shapely.Polygon()
     for shape in sorted(through, key=shapely.area, reverse=True):
         plate = shapely.symmetric_difference(plate, shape)
     heights, found = sorted({0.0, thickness, *(h for top, bottom, _ in recesses for h in (top, bottom))}), []
-    for top, bottom in zip(heights, heights[1:], strict=False):
+    for top, bottom in pairwise(heights):
         open_ = [shape for start, end, shape in recesses if start <= top and end >= bottom]
         found.append((-top, -bottom, shapely.difference(plate, shapely.union_all(open_))))
     return found
@@ -77,12 +81,11 @@ def _contours(lines: list[Any], path: Path) -> list[Any]:
 
 def compare(case: Case, origin: list[float], path: Path) -> None:
     """Each level of a certificate is that of the drawing, within the gouge limit."""
-    x, y = (value / 1000 for value in origin)
     drawn = levels_of(path, -case.levels[-1][1])
     for top, bottom, shape in case.levels:
         middle = (top + bottom) / 2
         own = next(level for high, low, level in drawn if low <= middle <= high)
-        own = shapely.transform(own, lambda points: points - (x, y))
+        own = shapely.affinity.translate(own, -origin[0] / 1000, -origin[1] / 1000)
         for one, other in ((shape, own), (own, shape)):
             apart = shapely.difference(one, other.buffer(GOUGE))
             if apart.area > SAG**2:

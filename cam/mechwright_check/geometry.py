@@ -1,6 +1,6 @@
 """Shapes of lines and arcs, paths as chords, and what those cover: all within SAG of the exact curves.
 
-A chord is a straight piece of path. What a chord sweeps in plan view is a capsule, which is convex: it holds a
+A chord is a straight piece of path. What it sweeps in plan view is a capsule, which is convex: it holds a
 stretch of a wall if it holds both of its ends.
 """
 
@@ -25,12 +25,13 @@ MOST = 3_000_000
 
 @dataclass(frozen=True)
 class Cutter:
-    """The outline of a tool: a cone from its tip on, then a cylinder; ``raw`` is all that is said of it."""
+    """The outline of a tool: a cone from its tip on, then a cylinder; its depth, and what else is said."""
 
     kind: str
     radius: float
     tip: float
     slope: float
+    flutes: float
     raw: dict[str, Any]
 
     def at(self, height: Any) -> Any:
@@ -68,7 +69,7 @@ def _corners(ends: np.ndarray, ring: Any) -> np.ndarray:
 
 
 def arc_points(a: np.ndarray, b: np.ndarray, c: np.ndarray, angle: float, sag: float = SAG) -> np.ndarray:
-    """Points (n, 2 or 3) along an arc or helix about c; a small difference of the radii is spread along it."""
+    """Points (n, 2 or 3) along an arc or helix about c; a small difference of radii is spread along it."""
     first, last = np.hypot(*(a - c)[:2]), np.hypot(*(b - c)[:2])
     count = abs(angle) / (2 * np.arccos(max(1 - sag / max(first, last, sag), -1.0))) + 2
     if not count < MOST / 100:
@@ -83,7 +84,7 @@ def arc_points(a: np.ndarray, b: np.ndarray, c: np.ndarray, angle: float, sag: f
 
 @dataclass(frozen=True)
 class Chords:
-    """Straight pieces of path: ends (n, 3), the move (n,) each belongs to, its tool, and whether it is fed."""
+    """Straight pieces of path: ends (n, 3), the move (n,) of each, its tool, and whether it is fed."""
 
     a: np.ndarray
     b: np.ndarray

@@ -1,8 +1,8 @@
 """Derives the moves of a program from its words, and holds the states that they need.
 
 Every mode is set before it is used, the spindle turns while the tool is fed, T, D and H agree, tools are
-changed and hands reach in at the machine's upper end only. A place is nan where nothing says it; z is inf, and
-TOP in moves, at the machine's upper end.
+changed and hands reach in at the machine's upper end only. A place is nan where nothing says it; z is inf,
+and TOP in moves, at the machine's upper end.
 """
 
 import math

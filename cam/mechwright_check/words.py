@@ -82,7 +82,7 @@ ROWS = {
     "heidenhain-tnc": KLARTEXT,
 }
 POINTS, GAP = {"fanuc", "haas"}, {"fanuc": 1.0, "haas": 1.27}
-"""Where a length without a point is another one; height above the last peck at which a cycle feeds again, or 0.254."""
+"""Where a length without a point is another; height above the last peck where a cycle feeds on, or 0.254."""
 
 
 def pattern(row: str) -> re.Pattern[str]:

@@ -128,7 +128,7 @@ def _tool(tool: Tool, item: Machined) -> dict[str, Any]:
 
 
 def _machine(job: Job) -> dict[str, Any]:
-    """Both ends of each axis in machine coordinates, the travels, and where the work offset stands, if known."""
+    """Both ends of each axis in machine coordinates, and where the work offset stands, if known."""
     machine = job.settings.machine
     return {
         **{axis: [_um(end) for end in machine.ends(axis)] for axis in "xyz"},
@@ -168,7 +168,7 @@ def moved(run: Run) -> Ints:
 
 
 def _moves(run: Run) -> dict[str, Any]:
-    """The moves by columns: kind, line, end and centre; what changes seldom as pairs of a move and its value."""
+    """The moves by columns: kind, line, end and centre; what seldom changes as pairs: move, value."""
     steps = moved(run)
     kind, sweep = run.kind[steps], run.sweep[steps]
     letters = np.where(

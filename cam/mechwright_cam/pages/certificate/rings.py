@@ -3,7 +3,7 @@
 Glossary
 --------
 node
-    Where a piece of a ring ends: ``[x, y]`` of a line, ``[x, y, cx, cy, turn]`` of an arc about (cx, cy), whose
+    Where a piece of a ring ends: ``[x, y]`` of a line, ``[x, y, cx, cy, turn]`` of an arc about (cx, cy);
     turn is 1 counter-clockwise and -1 clockwise.
 """
 
@@ -17,8 +17,8 @@ from mechwright.arrays import Array
 
 MICRONS = 1000.0
 NOISE = 1e-6
-"""Corners of chords lie so near to their arc, mm; the centre of a circle through three of them is off by so much
-more as its radius, squared, over a chord's length, squared."""
+"""Corners of chords lie so near to their arc, mm; the centre of a circle through three of them is off by
+more, as the square of its radius over a chord's length."""
 FITS = 1e-4
 """Corners of an arc lie so near to it, mm: a fifth of a chord's own error."""
 LEAST = 4
@@ -30,7 +30,7 @@ SHARPEST = 0.5
 
 
 def rings(shape: Any) -> list[list[list[float]]]:
-    """Each ring of a shape by its nodes, outer rings counter-clockwise and holes clockwise; none without area.
+    """Each ring of a shape by its nodes, outer rings counter-clockwise and holes clockwise.
 
     Examples
     --------
@@ -82,11 +82,11 @@ def _middle(points: Array) -> Array | None:
     table = np.column_stack((2 * near, np.ones(len(near))))
     x, y, _ = np.linalg.lstsq(table, (near**2).sum(axis=1), rcond=None)[0]
     away = np.hypot(near[:, 0] - x, near[:, 1] - y)
-    return points.mean(axis=0) + (x, y) if np.ptp(away) < FITS else None
+    return points.mean(axis=0) + np.array((x, y)) if np.ptp(away) < FITS else None
 
 
 def _circles(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
-    """Centre (n, 2) of the circle through three corners each, and 1, -1, or 0 where they are no chords of one."""
+    """Centre (n, 2) of the circle through three corners each, and its turn; 0 where there is none."""
     u, v = b - a, c - b
     cross = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
     dot = (u * v).sum(axis=1)
