@@ -59,7 +59,7 @@ def test_a_program_may_end_far_away(control: str) -> None:
     assert prove(text, job_of(control), BY_NAME[control]).ok
 
 
-@pytest.mark.parametrize("control", ["fanuc", "haas", "mach3", "grbl"])
+@pytest.mark.parametrize("control", ["fanuc", "mach3", "grbl"])
 def test_the_second_reference_point_is_one_too(control: str) -> None:
     text, line = in_cut(text_of(control), "G30 X0. Y0.")
     refused(machine_moves, control, text, line)

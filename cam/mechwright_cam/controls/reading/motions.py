@@ -272,7 +272,8 @@ class Moving(Tapping):
             self.lacks(line, "return", "G98")
         if not self.absolute:
             raise fail(line, f"{name} with distances (G91) is not supported; write G90")
-        asked = "ZR" + ("Q" if code in {730, 830} else "") + ("P" if code in {820, 890} | TAPPING else "")
+        row = self.dialect.words.known[name]
+        asked = [letter for letter in "ZRQP" if letter in row.takes]
         if code in TAPPING:
             self.sticky.setdefault("P", 0.0)
         for letter in asked:  # what it does not ask for is left over, and refused
@@ -283,7 +284,7 @@ class Moving(Tapping):
                 self.sticky[letter] = time
         if self.sticky.get("P", 0.0) < 0:
             raise fail(line, f"{name} waits for {self.sticky['P']:g} s; write P 0 or more")
-        for letter in self.dialect.words.known[name].pointless:
+        for letter in row.pointless:
             if (often := words.pop(letter, 1.0)) != 1:
                 raise fail(
                     line,

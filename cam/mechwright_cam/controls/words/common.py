@@ -51,7 +51,7 @@ NOT_SIMULATED = (
     *refused("G51", "scaling is not simulated"),
 )
 """G codes that they share as well, and that are refused."""
-SPINDLE = m("M3 M4 M5")
+SPINDLE = (*m("M3", spindle=1), *m("M4", spindle=-1), *m("M5", spindle=0))
 COOLANT_TOGETHER = (*m("M7 M8"), *m("M9", excludes=("M7", "M8")))
 """Where M7 and M8 may stand in one block."""
 COOLANT_APART = m("M7 M8 M9", group="coolant")

@@ -17,8 +17,9 @@ def fanuc_like(repeats: str) -> Words:
         *g("G41 G42", "D", needs="D"),
         *g("G43", "H", needs="H"),
         *g("G28 G30", "XYZ", in_cycles=False),
-        *m("M3 M4", before_feed=False),
-        *m("M19"),
+        *m("M3", spindle=1, before_feed=False),
+        *m("M4", spindle=-1, before_feed=False),
+        *m("M19", spindle=0),
     ]
     rows = (*MILLING, *cycles(repeats), *NOT_SIMULATED, *changed)
     return RS274.but(*rows, one_m=True).bounded(*lengths("needed"))
@@ -33,7 +34,7 @@ WORDS = (
         *g("G9 G97 G15 G50 G69", use=Use.IDLE),
         *g("G5.1", "QR", use=Use.IDLE, one_of=("Q",)),
         *g("G8", "P", use=Use.IDLE, one_of=("P",)),
-        *m("M29"),
+        *m("M29", spindle=0),
     )
     .bounded(
         Address("F", 0, point="inches"),

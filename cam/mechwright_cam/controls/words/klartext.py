@@ -3,6 +3,7 @@
 Here a block is a code with the words that it takes; R0 stands for no compensation.
 """
 
+from mechwright_cam.controls.words.common import SPINDLE
 from mechwright_cam.controls.words.kept import Kept, Then, everywhere, shown_by_none
 from mechwright_cam.controls.words.table import Address, Code, Use, Words, addresses, g, m
 
@@ -85,7 +86,8 @@ INTERPRETED = Words(
         *g("G53", "XYZ"),
         *g("G64", "PQ"),
         *g("G43 G49 G17 G20 G21 G40 G54 G55 G56 G57 G58 G59 G90 G90.1 G94"),
-        *m("M0 M1 M2 M30 M3 M4 M5 M6 M7 M8"),
+        *m("M0 M1 M2 M30 M6 M7 M8"),
+        *SPINDLE,
         *m("M9", excludes=("M7", "M8")),
     ),
     (Address("F", 0), Address("S", 0), Address("T", 0, 32_767, parts=False)),

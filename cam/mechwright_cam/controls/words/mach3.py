@@ -13,9 +13,10 @@ WORDS = RS274.but(
     *NOT_SIMULATED,
     *g("G90.1 G91.1 G92.1"),
     *g("G43", "H", needs="H"),
+    *g("G84", "XYZRL", pointless=("L",)),
     *g("G50 G69 G97", use=Use.IDLE),
     *m("M48 M49", use=Use.IDLE),
-    tables=(OffsetTable(1, "XZ"), OffsetTable(2, "XYZ")),
+    tables=(OffsetTable(1, "XZ", 0, OFFSETS), OffsetTable(2, "XYZ", 1, OFFSETS)),
 ).bounded(*(replace(RS274.of(letter), most=OFFSETS) for letter in "HD"))
 
 KEPT = (

@@ -5,6 +5,7 @@ The codes come to RS274 words, which the interpreter reads: ``becomes``.
 
 from dataclasses import replace
 
+from mechwright_cam.controls.words.common import SPINDLE
 from mechwright_cam.controls.words.kept import Kept, Then, everywhere, feed_mode, shown_by_none
 from mechwright_cam.controls.words.table import Address, Code, OffsetTable, Use, Words, addresses, g, m
 
@@ -74,7 +75,8 @@ INTERPRETED = Words(
         *g("G10", "LPXYZ"),
         *g("G53", "XYZ"),
         *g("G43 G49 G17 G20 G21 G40 G54 G55 G56 G57 G61 G64 G90 G91 G94"),
-        *m("M0 M1 M2 M30 M3 M4 M5 M6 M7 M8"),
+        *m("M0 M1 M2 M30 M6 M7 M8"),
+        *SPINDLE,
         *m("M9", excludes=("M7", "M8")),
     ),
     tuple(replace(one) for one in WORDS.numbers if one.letter != "D"),

@@ -54,6 +54,8 @@ class Code:
     """Whether it counts as one that takes the axes, also where none stands in the block."""
     alone: bool = False
     """Whether it is refused beside a motion: which comes first, nothing says."""
+    spindle: int | None = None
+    """What it makes of the spindle: 1 clockwise, -1 backwards, 0 stopped; None where it leaves that alone."""
     before_feed: bool = True
     """Whether it acts before a feed beside it; else the machine's builder has set which of them is first."""
     in_cycles: bool = True
@@ -200,6 +202,11 @@ class Words:
         """The same with other rows, and with other facts about blocks."""
         kept = {row.word: row for row in (*self.codes, *rows)}
         return replace(self, codes=tuple(kept.values()), **changes)
+
+    def without(self, words: str) -> "Words":
+        """The same without some words."""
+        gone = set(words.split())
+        return replace(self, codes=tuple(row for row in self.codes if row.word not in gone))
 
     def bounded(self, *numbers: Address) -> "Words":
         """The same with other addresses."""

@@ -96,7 +96,7 @@ class Drilling(Spelling):
         """Tap with G84, or G74 to the left; holes that agree share the cycle and what is ``before``."""
         code = "G74" if out.tapping.left_hand else "G84"
         words = [code, "Z" + out.height(hole.bottom), "R" + out.height(hole.retract, up=True)]
-        if hole.dwell > 0 and out.tapping.floating:
+        if hole.dwell > 0 and out.tapping.floating and "P" in self.dialect.words.known[code].takes:
             words.append("P" + self.waiting(hole.dwell))
         feed = out.feed_text(hole.feed, exact=True)
         if self._goes_on(out, hole, (*words, feed), before, every_word=every_word):
