@@ -30,7 +30,7 @@ STRAP_HEIGHT = 20.0
 """Of a strap with its nut above the plate, mm."""
 TORQUE = 12
 """Of the screw M8 of a strap, N m."""
-BROKEN = 0.3
+BROKEN = 0.2
 """What edges are broken by where a drawing says nothing else, mm (ISO 13715 in the title block)."""
 
 
