@@ -2,10 +2,10 @@
 
     python benchmarks/bench_makers.py [MACHINE ...]     by default every machine that has a control here
 
-For each machine and material the shop is written by one command, with three mills and a sheet of 6 mm, and three
-designs are made of it by ``new``: a Geneva wheel, a pair of elliptic gears, a four-bar linkage. Each is
-checked up to the proven programs. "yes" is proven; else the code that refuses it. A sheet is as large as the machine
-travels, at most 300 x 200 mm.
+For each machine and material the shop is written by one command, with three mills and a sheet of 6 mm, and
+three designs are made of it by ``new``: a Geneva wheel, a pair of elliptic gears, a four-bar linkage. Each is
+checked up to the proven programs. "yes" is proven; else the code that refuses it stands there. A sheet is as
+large as the machine travels, at most 300 x 200 mm.
 """
 
 import subprocess

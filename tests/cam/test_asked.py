@@ -37,7 +37,7 @@ PLAIN = (
     "crank = 30\ncoupler = 80\nfollower = 70\nground = 90\n"
 )
 LAYERS = {Chamfer: "CHAMFER", Engraving: "ENGRAVE", Thread: "THREAD"}
-OPERATIONS = {Chamfer: "chamfer", Engraving: "engrave", Thread: "thread"}
+OPERATIONS = {Chamfer: "chamfer", Engraving: "engrave", Thread: "tap"}
 
 
 def design(tmp_path, text, head=PLAIN):
@@ -96,7 +96,7 @@ def test_a_threaded_hole_is_one_hole_and_the_part_loses_what_the_thread_leaves(t
     assert part_solid(after).Volume() - part_solid(before).Volume() == pytest.approx(gained, rel=1e-6)
     assert "M6x1 through" in dxf.part(after).decode()
     text = made(found, "ground").text
-    assert "thread-bore-3: thread" in text
+    assert "thread-bore-3: tap" in text
     assert "D6" not in re.findall(r"\(bore-3.*\)", text)
 
 
@@ -191,7 +191,9 @@ def test_what_cannot_be_done_is_refused_by_the_name_of_its_key(text, said, tmp_p
         ),
         ("[cam]\nmark = 'A'\nmark_depth = 1.5", "no pointed cutter engraves mark of part"),
         (
-            "[parameters]\nground_thickness = 14\n[cam.part.ground.holes.bore-3]\nthread = 'M6'",
+            "[parameters]\nground_thickness = 14\n[cam]\n"
+            "tools = ['spot-6', 'drill-5', 'mill-6', 'mill-4', 'thread-m6']\n"
+            "[cam.part.ground.holes.bore-3]\nthread = 'M6'",
             "no thread mill",
         ),
     ],

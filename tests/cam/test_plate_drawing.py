@@ -183,8 +183,8 @@ def test_threads_depths_recesses_and_datums_are_told():
     one = PlateDrawing(plate(), Tolerances())
     lines = "\n".join(said(plate_sheet(one, BLOCK)))
     assert one.datum == (20.0, 15.0), "the hole with a fit"
-    assert "M5x0.8 6 deep; ⌀4.2, 8 deep" in lines
-    assert "⌀6 H7 (0/+0.012) through" in lines
+    assert "M5-6H, 6 deep / ⌀4.2, 8 deep" in lines
+    assert "⌀6 H7 (0/+0.012) Ra 1.6 through" in lines
     assert "recess, 3 deep" in lines
     assert "60 | 35" in lines, "a corner of the rim, from the dowel"
 

@@ -31,7 +31,7 @@ from mechwright_cad.sheet.scales import LEAST, SCALES
 from mechwright_cad.sheet.sheet import Sheet, width_of
 from mechwright_cad.sheet.tables import STEP, Row
 from mechwright_cad.sheet.title import TitleBlock, projection_sign
-from mechwright_cad.sheet.words import GENERAL, number
+from mechwright_cad.sheet.words import FAIR, GENERAL, number
 
 MOST_HOLES = 100
 """Holes whose places a table holds: more would not go on a sheet of A1 beside the plan."""
@@ -113,7 +113,14 @@ def corner_rows(found: tuple[Contour, ...], origin: Point, name: str, tolerances
             Row(("Contours", "", "", ""), head=True),
             *(Row((f"{many} x {words}", "", "", "")) for words, many in alike.items() if len(found) > 1),
             Row((f"{name}.dxf has the nominal curves", "", "", "")),
-            Row((f"walls {number(-settings.gouge)} to +{number(settings.leftover)} off them", "", "", "")),
+            Row(
+                (
+                    _walls(settings.gouge, settings.leftover),
+                    "",
+                    "",
+                    "",
+                )
+            ),
         ]
     rows = [Row(("Corner", "X", "Y", "on to the next one"), head=True)]
     for one in found:
@@ -127,6 +134,15 @@ def corner_rows(found: tuple[Contour, ...], origin: Point, name: str, tolerances
             x, y = (number(value) for value in shifted(corner.at, origin))
             rows.append(Row((corner.name, x, y, corner.words(origin))))
     return rows
+
+
+def _walls(gouge: float, leftover: float) -> str:
+    return f"walls {number(-gouge)} to +{number(leftover)} off them, {FAIR}"
+
+
+def data_rows(part: Part) -> list[Row]:
+    """The table of data, such as those of teeth."""
+    return [Row(("Data", ""), head=True), *(Row(pair) for pair in part.data)] if part.data else []
 
 
 def measure_rows(part: Part) -> list[Row]:
@@ -149,11 +165,12 @@ def plate_sheet(told: PlateDrawing, title: TitleBlock) -> Sheet:
         for rows in (
             hole_rows(found, origin, part.name) if found else [],
             corner_rows(shapes, origin, part.name, told.tolerances),
+            data_rows(part),
             measure_rows(part),
         )
         if rows
     ]
-    frames = _frames(told, found)
+    frames = [*_frames(told, found), *_profile(told, shapes)]
     paper, scale, columns = _fitting(part, blocks, len(frames))
     sheet = Sheet(*paper, scale)
     top = paper[1] - MARGIN - EDGE
@@ -168,7 +185,7 @@ def plate_sheet(told: PlateDrawing, title: TitleBlock) -> Sheet:
             for name, symbol, zone, datums in frames:
                 y -= HIGH + 1.0
                 tables.draw(sheet, [Row((name,))], (x, y + (HIGH + STEP) / 2))
-                tolerance_frame(sheet, (x + 18.0, y), symbol, f"⌀{number(zone)}", datums)
+                tolerance_frame(sheet, (x + 18.0, y), symbol, zone, datums)
         x += max(sum(tables.widths(rows)) for rows in column) + _BETWEEN
     stock = f"{part.material}, {number(part.thickness)} mm"
     frame(sheet, title.of_part(part, stock, scale), [*GENERAL, _measured(told)])
@@ -190,7 +207,24 @@ def _datum_hole(told: PlateDrawing) -> Hole | None:
     return None
 
 
-def _frames(told: PlateDrawing, found: tuple[Kind, ...]) -> list[tuple[str, Symbol, float, str]]:
+Frame = tuple[str, Symbol, str, str]
+"""What a frame is for, its symbol, its zone in words, and its datums."""
+
+
+def _profile(told: PlateDrawing, shapes: tuple[Contour, ...]) -> list[Frame]:
+    """The frame of walls that curves make: what their mill may leave and what it may cut away.
+
+    The zone lies unequally about the nominal curve, its middle so far out of the material (ISO 1101, UZ).
+    """
+    if is_table(shapes):
+        return []
+    settings = told.tolerances.settings
+    out = (settings.leftover - settings.gouge) / 2
+    zone = f"{number(settings.leftover + settings.gouge)} UZ{'+' if out >= 0 else ''}{round(out, 4):g}"
+    return [("Curves", "profile", zone, "A" if _datum_hole(told) is None else "AB")]
+
+
+def _frames(told: PlateDrawing, found: tuple[Kind, ...]) -> list[Frame]:
     """Name, symbol, zone and datums of each frame: one for all fitted holes that have the same."""
     base = _datum_hole(told)
     rows: dict[tuple[Symbol, float, str], list[str]] = {}
@@ -204,7 +238,9 @@ def _frames(told: PlateDrawing, found: tuple[Kind, ...]) -> list[tuple[str, Symb
             if base is not None and hole.centre == base.centre:
                 symbol, datums = "perpendicularity", "A"
             rows.setdefault((symbol, zone, datums), []).append(name)
-    return [(_list(names), *key) for key, names in rows.items()]
+    return [
+        (_list(names), symbol, f"⌀{number(zone)}", datums) for (symbol, zone, datums), names in rows.items()
+    ]
 
 
 def _list(names: list[str]) -> str:

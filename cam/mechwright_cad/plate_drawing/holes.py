@@ -4,12 +4,13 @@ import math
 from collections import defaultdict
 from dataclasses import dataclass
 
-from mechwright.contracts.details import Chamfer, Thread
+from mechwright.contracts.details import CORE_PLAY, Chamfer, Thread
 from mechwright.contracts.part import Bore, Part
+from mechwright.contracts.threads import COARSE
 from mechwright.geometry import Arc
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright_cad.sheet.words import number
+from mechwright_cad.sheet.words import FAIR, number
 
 
 @dataclass(frozen=True)
@@ -77,8 +78,7 @@ def _holes(part: Part) -> list[Hole]:
     found = []
     for key, lot in lots.items():
         own = [thread for thread in threads if _key(thread.centre) == key]
-        words = [_of_thread(thread, part.thickness) for thread in own]
-        words += [_of_bore(bore, part.thickness) for bore in sorted(lot, key=lambda one: -one.diameter)]
+        words = _of_threads(own, lot, part.thickness)
         broken = [
             f"{number(one.width)} x 45°" for one, at in chamfers if at is not None and _key(at.centre) == key
         ]
@@ -101,7 +101,7 @@ def _round(chamfer: Chamfer) -> Arc | None:
 
 
 def _of_bore(bore: Bore, thickness: float) -> str:
-    size = bore.fit.text if bore.fit is not None else number(bore.diameter)
+    size = f"{bore.fit.text} {FAIR}" if bore.fit is not None else number(bore.diameter)
     through = bore.top + bore.depth >= thickness - TOLERANCES.closure
     if through:
         return f"⌀{size} through" if bore.top <= TOLERANCES.closure else f"⌀{size} through from there"
@@ -109,6 +109,31 @@ def _of_bore(bore: Bore, thickness: float) -> str:
     return f"⌀{size}, {deep}" + (f" from {number(bore.top)} on" if bore.top > TOLERANCES.closure else "")
 
 
+def _of_threads(threads: list[Thread], bores: list[Bore], thickness: float) -> list[str]:
+    """Threads with their drills behind a stroke (ISO 6410-1), and all other bores, the widest first."""
+    words = []
+    rest = sorted(bores, key=lambda one: -one.diameter)
+    for thread in threads:
+        cores = [bore for bore in rest if abs(bore.diameter - thread.core) <= CORE_PLAY * thread.pitch]
+        core = min(cores, key=lambda bore: abs(bore.diameter - thread.core), default=None)
+        word = _of_thread(thread, thickness)
+        if core is not None:
+            rest.remove(core)
+            word += f" / {_of_bore(core, thickness)}"
+        words.append(word)
+    return [*words, *(_of_bore(bore, thickness) for bore in rest)]
+
+
 def _of_thread(thread: Thread, thickness: float) -> str:
+    """Designation, class of tolerance and depth.
+
+    >>> _of_thread(Thread("t", (0, 0), 5.0, 0.8, 7.5), 10.0)
+    'M5-6H, 7.5 deep'
+    """
     deep = "through" if thread.depth >= thickness - TOLERANCES.closure else f"{number(thread.depth)} deep"
-    return f"{thread.designation} {deep}"
+    name, left = thread.designation.removesuffix(" LH"), " LH" if thread.left else ""
+    if thread.inch:
+        return f"{name}-2B{left}, {deep}"
+    if COARSE.get(thread.diameter) == thread.pitch:
+        name = f"M{thread.diameter:g}"
+    return f"{name}{left}-6H, {deep}"

@@ -1,5 +1,6 @@
 """Datums and frames of geometrical tolerances (ISO 5459, ISO 1101)."""
 
+import math
 from typing import Literal
 
 from mechwright.geometry.segments import Point
@@ -10,7 +11,7 @@ from mechwright_cad.sheet.tables import SMALL
 HIGH = 5.0
 """Height of a frame, mm: twice its letters."""
 
-Symbol = Literal["position", "perpendicularity"]
+Symbol = Literal["position", "perpendicularity", "profile"]
 
 
 def datum(sheet: Sheet, letter: str, foot: Point, way: Point) -> None:
@@ -54,6 +55,10 @@ def _symbol(sheet: Sheet, middle: Point, symbol: Symbol) -> None:
             sheet.lines(ring(middle, 1.0), "DIM")
             sheet.lines([(x - 1.7, y), (x + 1.7, y)], "DIM")
             sheet.lines([(x, y - 1.7), (x, y + 1.7)], "DIM")
+        case "profile":
+            angles = [k * math.pi / 16 for k in range(17)]
+            half = [(x + 1.6 * math.cos(a), y - 0.8 + 1.6 * math.sin(a)) for a in angles]
+            sheet.lines([*half, half[0]], "DIM")
         case "perpendicularity":
             sheet.lines([(x - 1.5, y - 1.5), (x + 1.5, y - 1.5)], "DIM")
             sheet.lines([(x, y - 1.5), (x, y + 1.5)], "DIM")

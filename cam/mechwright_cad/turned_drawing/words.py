@@ -7,9 +7,8 @@ from mechwright.contracts.limits import limits
 from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned, limited
 from mechwright.errors import DesignError
 from mechwright.standards.keys import depth_tolerance, length_tolerance
-from mechwright_cad.sheet.words import GENERAL, number
+from mechwright_cad.sheet.words import FAIR, FINE, GENERAL, number
 
-FINE, FAIR = "Ra 0.8", "Ra 1.6"
 """Roughness of seats that are pressed, and of those that turn or slide, µm."""
 
 _PRESSED = re.compile("[jkmnp][4-7]")

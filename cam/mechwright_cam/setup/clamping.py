@@ -28,6 +28,8 @@ OTHER_RIM = 5.0
 """Rim on the sides without clamps, mm: it keeps the frame stiff."""
 SKIN = 2.0
 """Between the channel and the rim, mm: a saw is off by as much."""
+COVERED = 10.0
+"""How far a strap lies on the plate, mm."""
 STRAP_WIDTH = 30.0
 """Of a strap along the edge, mm."""
 FEW = 4 * STRAP_WIDTH
@@ -92,6 +94,21 @@ def straps(job: Job) -> tuple[Strap, ...]:
     length, low, pair = max(found)
     places = (0.5,) if length < FEW else (0.25, 0.75)
     return tuple(Strap(edge, round(low + share * length, 1)) for edge in pair for share in places)
+
+
+def strap_box(job: Job, strap: Strap) -> tuple[float, float, float, float]:
+    """Where a strap lies on the plate: least and greatest x and y, work coordinates, mm."""
+    x0, y0, x1, y1 = job.stock
+    low, high = strap.at - STRAP_WIDTH / 2, strap.at + STRAP_WIDTH / 2
+    match strap.edge:
+        case "front":
+            return low, y0, high, y0 + COVERED
+        case "rear":
+            return low, y1 - COVERED, high, y1
+        case "left":
+            return x0, low, x0 + COVERED, high
+        case _:
+            return x1 - COVERED, low, x1, high
 
 
 def screw_places(job: Job) -> tuple[Point, ...]:

@@ -21,7 +21,10 @@ class Stock(Parameters):
     """
 
     margin: Millimetres | None = Field(
-        None, ge=0, le=200, description="Stock around the part; by default the roughing cutter and 3 mm."
+        None,
+        ge=0,
+        le=200,
+        description="Stock around the part; by default with a rim for clamps on two of its sides.",
     )
     length: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in X.")
     width: Millimetres | None = Field(None, gt=0, le=10000, description="Size of the plate in Y.")

@@ -254,6 +254,8 @@ class Part:
         Names of its holes with a fit that may stay empty: places of a pin that is in one of them.
     measures
         Sizes that tell whether it is right, beside its overall sizes and its bores: they stand on the sheet.
+    data
+        Names and values of a table that its drawing has, such as those of its teeth.
     free_form
         What a part looks like that is neither a plate nor turned: it gets a drawing of it.
 
@@ -279,6 +281,7 @@ class Part:
     play: float = 0.0
     vacant: tuple[str, ...] = ()
     measures: tuple[Measure, ...] = ()
+    data: tuple[tuple[str, str], ...] = ()
     free_form: FreeForm | None = None
 
     def __post_init__(self) -> None:

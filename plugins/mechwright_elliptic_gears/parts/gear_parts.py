@@ -28,7 +28,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.details import Detail
 from mechwright.contracts.fits import Fit
-from mechwright.mechanics.gearing import gear_measures, tip_sites
+from mechwright.mechanics.gearing import gear_data, gear_measures, tip_sites
 from mechwright.mechanics.gearing.usual import DOT
 from mechwright.mechanics.openings import keyway_measures, opening_of
 from mechwright_elliptic_gears.kinematics.equations import phase_offset
@@ -286,6 +286,11 @@ def gear_part(params: EllipticGearParams, gear: Gear) -> Part:
         details=gear.details,
         marks=gear_marks(params, gear.name, [body for body, _ in gear.bodies], gear.key),
         measures=(*measures_of(params), *(() if gear.key is None else keyway_measures(opening_of(params)))),
+        data=(
+            *gear_data(teeth_of(params)),
+            ("ellipse, semi-axis", f"{ellipse_of(params).semi_major:.6g}"),
+            ("eccentricity", f"{params.eccentricity:.4g}"),
+        ),
         vacant=tuple(hole.name for hole in gear.holes) if params.phase_joint == "pins" else (),
     )
 

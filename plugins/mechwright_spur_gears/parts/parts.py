@@ -2,7 +2,7 @@
 
 from mechwright import Bore, Colour, Instance, Outline, Part, Profile
 from mechwright.contracts.part import Feature
-from mechwright.mechanics.gearing import gear_measures, tip_sites
+from mechwright.mechanics.gearing import gear_data, gear_measures, tip_sites
 from mechwright.mechanics.gearing.pair_parts import gear_features
 from mechwright.mechanics.openings import keyway_measures
 from mechwright_spur_gears.gear_table import GearTable
@@ -35,6 +35,7 @@ def parts_of(m: GearTable) -> tuple[Part, ...]:
                 *gear_measures(teeth, backlash=float(m.pair.backlash), inside=name == "ring"),
                 *(() if name in {"ring", "planet"} else keyway_measures(m.opening)),
             ),
+            data=gear_data(teeth),
         )
         for name, outline, teeth in zip(m.names, outlines_of(m), teeth_of(m), strict=not m.straight)
     ]

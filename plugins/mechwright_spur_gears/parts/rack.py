@@ -1,5 +1,6 @@
 """A rack and its pinion as drawn, as cut and as made."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -69,6 +70,19 @@ def rack_part(m: GearTable) -> Part:
         instances=(Instance("rack", 0.0, COLOUR),),
         machined=tuple(plate.features(outline, given.thickness)),
         measures=plate.measures(SHARE * float(m.pair.backlash)),
+        data=_data(m),
+    )
+
+
+def _data(m: GearTable) -> tuple[tuple[str, str], ...]:
+    """Names and values of the rack's table of teeth."""
+    pair = m.rack_pair
+    return (
+        ("number of teeth", f"{int(m.dimensions.rack_teeth)}"),
+        ("module", f"{float(pair.module):.4g}"),
+        ("pressure angle", f"{math.degrees(float(pair.angle)):.4g}°"),
+        ("pitch", f"{float(pair.pitch):.6g}"),
+        ("tooth on the pitch line", f"{float(pair.thickness(1)):.4g}"),
     )
 
 

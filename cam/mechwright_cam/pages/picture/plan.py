@@ -14,7 +14,9 @@ from mechwright_cam.pages.picture.dimensions import dimensions, ends_of_words, o
 from mechwright_cam.pages.picture.frame import DETAIL, Frame, outline_data
 from mechwright_cam.pages.picture.paths import path_layers
 from mechwright_cam.pages.trace import Traced
+from mechwright_cam.planning.holding_force import holding
 from mechwright_cam.program.moves import Program
+from mechwright_cam.setup.clamping import SCREW, strap_box
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.nest import Nest
@@ -131,7 +133,7 @@ def _details(job: Job, frame: Frame) -> str:
 
 
 def _holding(job: Job, frame: Frame) -> str:
-    parts = []
+    parts = _on_waste(job, frame)
     for place, tab in enumerate(job.tabs, start=1):
         shape = svg.path(list(tab.shape.exterior.coords)[:-1], close=True)
         level = svg.path(list(tab.level.exterior.coords)[:-1], close=True)
@@ -156,6 +158,22 @@ def _holding(job: Job, frame: Frame) -> str:
         parts.append(svg.element("circle", **circle, fill="#e6a100", fill_opacity=0.45, stroke="#8a6100"))
         parts.append(_tag(x, y - job.clamp.diameter / 2 + frame.letters, "clamp", frame))
     return "".join(parts)
+
+
+def _on_waste(job: Job, frame: Frame) -> list[str]:
+    """The straps on the rim, or the screws through the waste, as the sheet proposes them."""
+    if job.jaws or job.toes or (way := holding(job).way) is None:
+        return []
+    look = {"fill": "#e6a100", "fill_opacity": 0.45, "stroke": "#8a6100", "stroke_width": _thin(job)}
+    parts = []
+    for strap in way.straps:
+        x0, y0, x1, y1 = strap_box(job, strap)
+        parts.append(svg.element("rect", x=x0, y=-y1, width=x1 - x0, height=y1 - y0, **look))
+        parts.append(_tag((x0 + x1) / 2, (y0 + y1) / 2, "M8", frame))
+    for x, y in way.screws:
+        parts.append(svg.element("circle", cx=x, cy=-y, r=SCREW, **look))
+        parts.append(_tag(x, y, f"M{SCREW:g}", frame))
+    return parts
 
 
 def _around(job: Job, width: float) -> shapely.Polygon:

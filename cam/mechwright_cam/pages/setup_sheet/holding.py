@@ -1,6 +1,9 @@
 """What the sheet says of holding: the force of the heaviest cut, and what bears it, where."""
 
+import math
+
 from mechwright.contracts.details import Chamfer
+from mechwright_cam.pages.setup_sheet.facts import HOLDER_GAP
 from mechwright_cam.planning.holding_force import (
     GLUE_SAFETY,
     SAFETY,
@@ -10,15 +13,24 @@ from mechwright_cam.planning.holding_force import (
     glue_hold,
     holding,
 )
-from mechwright_cam.setup.clamping import EDGES, SCREW, STRAP_ROOM, least_margin, widest_channel
+from mechwright_cam.setup.clamping import (
+    COVERED,
+    EDGES,
+    SCREW,
+    SKIN,
+    STRAP_ROOM,
+    least_margin,
+    rims,
+    widest_channel,
+)
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.lengths import Lengths
 
+STRAP_HEIGHT = 20.0
+"""Of a strap with its nut above the plate, mm."""
 TORQUE = 12
 """Of the screw M8 of a strap, N m."""
-COVERED = 10.0
-"""How far a strap lies on the plate, mm."""
-BROKEN = 0.3
+BROKEN = 0.2
 """What edges are broken by where a drawing says nothing else, mm (ISO 13715 in the title block)."""
 
 
@@ -67,10 +79,20 @@ def _way_lines(job: Job, found: Holding, to: Lengths) -> list[str]:
         return lines
     bears = f"{way.holds:.0f} N, {found.safety:.1f} times"
     if way.straps:
-        return [
+        lines = [
             f"{way.name}, tightened with {TORQUE} N m, bear {bears}: {_straps(way, to)}. Each lies "
-            f"{to.with_unit(COVERED)} on the rim, over a support, and no lower than the plate behind it."
+            f"{to.with_unit(COVERED)} on the rim, over a support, its heel no lower than its toe."
         ]
+        holder = max(mill.holder_diameter for mill in job.mills)
+        least = min(rims(job)[strap.edge] for strap in way.straps)
+        # A mill's centre is in the middle of its channel, and the strap begins where it covers the rim.
+        if least + SKIN + widest_channel(job) / 2 - COVERED < holder / 2:
+            out = to.with_unit(math.ceil(STRAP_HEIGHT - job.floor + HOLDER_GAP))
+            lines.append(
+                f"Holders of ⌀{to.plain(holder)} pass over the straps while the outside is cut: with straps "
+                f"{to.with_unit(STRAP_HEIGHT)} high its mills stand {out} out. Lower straps need less."
+            )
+        return lines
     if way.screws:
         places = ", ".join(f"X {to.signed(x, 1)} Y {to.signed(y, 1)}" for x, y in way.screws)
         return [

@@ -12,6 +12,7 @@ driver, driven gear
 
 from mechwright.mechanics.gearing.bodies import TO_NM, body, driven_torque, turned_back
 from mechwright.mechanics.gearing.contour import gear_loop, tip_sites
+from mechwright.mechanics.gearing.data import gear_data
 from mechwright.mechanics.gearing.exactness import exact_fit, lever_fit
 from mechwright.mechanics.gearing.gauging import gear_measures
 from mechwright.mechanics.gearing.mesh import Mesh, first_depth, mesh, swing
@@ -51,6 +52,7 @@ __all__ = [
     "driven_torque",
     "exact_fit",
     "first_depth",
+    "gear_data",
     "gear_loop",
     "gear_measures",
     "lever_fit",
