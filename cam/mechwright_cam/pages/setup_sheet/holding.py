@@ -3,7 +3,6 @@
 import math
 
 from mechwright.contracts.details import Chamfer
-from mechwright_cam.pages.setup_sheet.facts import HOLDER_GAP
 from mechwright_cam.planning.holding_force import (
     GLUE_SAFETY,
     SAFETY,
@@ -24,6 +23,7 @@ from mechwright_cam.setup.clamping import (
     widest_channel,
 )
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.limits import HOLDER_GAP
 from mechwright_cam.shop.lengths import Lengths
 
 STRAP_HEIGHT = 20.0
