@@ -300,7 +300,7 @@ def test_a_linkage_that_is_chosen_brings_its_fields(browser, tmp_path):
     server = Page(path)
     page = browser.new_page()
     page.goto(f"http://127.0.0.1:{server.port}/{server.token}/")
-    page.wait_for_selector("#picture path.part")
+    page.wait_for_selector("#picture path.part", state="attached")
     tables = (
         "[...new Set([...document.querySelectorAll('.field')].map((one) => one.dataset.key.split('.')).filter((one) =>"
         " one[0] === 'parameters' && one.length > 2).map((one) => one[1]))].join()"

@@ -85,12 +85,12 @@ function painterOn(canvas) {
     gl.uniformMatrix3fv(u.turn, false, columnsOf(turn));
     gl.uniform3fv(u.shift, place);
   };
-  own.solid = ({ array, count }, colour) => {
+  own.solid = ({ array, count }, colour, nearer = 0) => {
     const open = own.cut[0] || own.cut[1] || own.cut[2];
     if (open) gl.disable(gl.CULL_FACE); else gl.enable(gl.CULL_FACE);
     gl.uniform3fv(u.colour, colour);
     gl.uniform1f(u.lit, 1);
-    gl.uniform1f(u.nearer, 0);
+    gl.uniform1f(u.nearer, nearer);
     gl.bindVertexArray(array);
     gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
   };

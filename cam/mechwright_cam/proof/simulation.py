@@ -275,10 +275,10 @@ def deviation(simulation: Simulation, job: Job, coarser: int) -> NDArray[np.floa
     ``coarser`` cells of the grid are one here. Walls are left to the proof: on a grid they have steps.
     """
     seen = simulation.heights[::coarser, ::coarser]
-    return seen - wanted_heights(job, (seen.shape[0], seen.shape[1]), simulation.cell * coarser)
+    return seen - target_heights(job, (seen.shape[0], seen.shape[1]), simulation.cell * coarser)
 
 
-def wanted_heights(job: Job, shape: tuple[int, int], cell: float) -> NDArray[np.float32]:
+def target_heights(job: Job, shape: tuple[int, int], cell: float) -> NDArray[np.float32]:
     """(ny, nx) height of the finished part, mm, on a grid; NaN beside the part and next to its walls."""
     wanted = np.full(shape, np.nan, dtype=np.float32)
     for band in reversed(bands(job)):

@@ -10,7 +10,7 @@ function inRuns({ lengths, values }, size) {
 function cuttingOf(run, relief, tools) {
   const { rows, columns, cell, corner, thickness } = relief, size = rows * columns;
   const first = inRuns(relief.heights, size), floors = inRuns(relief.floors, size), heights = first.slice();
-  const own = { heights, floors, wanted: inRuns(relief.wanted, size), changed: [0, rows] };
+  const own = { heights, floors, target: inRuns(relief.target, size), changed: [0, rows] };
   const byNumber = new Map(tools.map((tool) => [tool.number, tool])), discs = new Map();
   // Height of a tool's end above its tip, cell by cell; Infinity where the tool is not.
   const discOf = (number) => {

@@ -65,7 +65,11 @@ def _plunges(scene: Scene) -> Iterator[Mark]:
         steps = np.flatnonzero(down & (run.tool == number))
         first = int(steps[0])
         x, y, z = end[first].tolist()
-        more = f", and {steps.size - 1} times more" if steps.size > 1 else ""
+        more = (
+            ["", ", and once more"][steps.size - 1]
+            if steps.size <= 2
+            else f", and {steps.size - 1} times more"
+        )
         text = f"T{number} plunges to Z{z:.3f} at X{x:.3f} Y{y:.3f}, {_line(scene, first)}{more}"
         yield _mark("plunge", text, first, (x, y, z))
 

@@ -42,8 +42,8 @@ function jobPicture(place, run, cutting, options) {
     }
     painter.stand(STANDS);
     if (options.ghost) {
-      painter.clear(0.35, () => painter.solid(ghost.faces, ghost.rgb));
-      painter.line(ghost.edges, ghost.rgb.map((part) => part * 0.7));
+      painter.clear(0.35, () => painter.solid(ghost.faces, ghost.rgb, 0.001)); // before the faces of the stock that it shares
+      painter.line(ghost.edges, ghost.rgb.map((part) => part * 0.7), { nearer: 0.0015 });
     }
     if (own.mark) painter.through(() => { painter.stand({ turn, place: own.mark }); painter.line(cross, rgb("#d4145a"), { bold: true }); });
     const at_now = performance.now(), moves = !still || eye.held();

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright_cad.viewer.packed import packed
 from mechwright_cam.proof.scene import Scene
-from mechwright_cam.proof.simulation import blank, wanted_heights
+from mechwright_cam.proof.simulation import blank, target_heights
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import Tool
 
@@ -50,7 +50,7 @@ def relief_of(scene: Scene) -> dict[str, Any]:
         "thickness": job.thickness,
         "heights": in_runs(heights),
         "floors": in_runs(floors),
-        "wanted": in_runs(wanted_heights(job, heights.shape, cell)),
+        "target": in_runs(target_heights(job, heights.shape, cell)),
     }
 
 

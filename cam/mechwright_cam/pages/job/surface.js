@@ -45,7 +45,7 @@ function surfaceOf(gl, relief, cutting) {
     for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
     return made;
   };
-  const stock = texture(cutting.heights), part = texture(cutting.wanted.map((one) => (Number.isNaN(one) ? FAR_OFF : one))), grids = new Map();
+  const stock = texture(cutting.heights), part = texture(cutting.target.map((one) => (Number.isNaN(one) ? FAR_OFF : one))), grids = new Map();
   const gridOf = (stride) => {
     if (grids.has(stride)) return grids.get(stride);
     const nx = Math.ceil(columns / stride), ny = Math.ceil(rows / stride), wide = nx + 2, index = new Uint32Array(6 * (nx + 1) * (ny + 1));
