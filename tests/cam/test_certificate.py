@@ -17,12 +17,6 @@ from by_control import BY_NAME, EVERY, read
 from certificates import checked, made, said, written
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mechwright_check import RefutedError, UnknownError
-from mechwright_check.__main__ import main
-from mechwright_check.certificate import case_of
-from mechwright_check.checks import check_all
-from mechwright_check.geometry import Chords, polygons
-from mechwright_check.reading import Reader
 from mutant_traces import differences, trace
 from mutants import mutant
 
@@ -30,11 +24,27 @@ from mechwright.errors import ProgramError
 from mechwright.geometry import Loop, circle
 from mechwright_cam.pages.certificate.content import unchecked
 from mechwright_cam.pages.certificate.rings import rings
+from mechwright_check import RefutedError, UnknownError
+from mechwright_check.__main__ import main
+from mechwright_check.certificate import case_of
+from mechwright_check.checks import check_all
+from mechwright_check.geometry import Chords, polygons
+from mechwright_check.reading import Reader
 
 CHECKER = Path(__file__).parents[2] / "cam" / "mechwright_check"
 MOST_LINES = 1250
 """Lines of the checker, with docstrings and empty ones: one person reads them in an hour."""
-PLAIN = ("profile-outside", "pocket-island", "peck", "rest", "tabs", "floor", "ream", "inches", "pocket-adaptive")
+PLAIN = (
+    "profile-outside",
+    "pocket-island",
+    "peck",
+    "rest",
+    "tabs",
+    "floor",
+    "ream",
+    "inches",
+    "pocket-adaptive",
+)
 """Operations within the subset of the checker."""
 
 
@@ -54,7 +64,11 @@ def test_the_checker_is_small_and_imports_nothing_of_ours() -> None:
 
 @pytest.mark.parametrize(
     ("operation", "control"),
-    [(operation, control) for n, operation in enumerate(PLAIN) for control in (EVERY[n % 7], EVERY[(n + 3) % 7])],
+    [
+        (operation, control)
+        for n, operation in enumerate(PLAIN)
+        for control in (EVERY[n % 7], EVERY[(n + 3) % 7])
+    ],
 )
 def test_proven_programs_are_consistent_on_every_control(
     operation: str, control: str, tmp_path: Path, capsys: Any
@@ -65,7 +79,12 @@ def test_proven_programs_are_consistent_on_every_control(
 
 @pytest.mark.parametrize(
     ("operation", "why"),
-    [("thread", "threads"), ("chamfer", "broken edges"), ("ball", "round end"), ("offsets", "several work offsets")],
+    [
+        ("thread", "threads"),
+        ("chamfer", "broken edges"),
+        ("ball", "round end"),
+        ("offsets", "several work offsets"),
+    ],
 )
 def test_what_a_certificate_does_not_hold_is_not_checkable(
     operation: str, why: str, tmp_path: Path, capsys: Any
@@ -91,7 +110,10 @@ def test_it_runs_where_mechwright_cannot_be_imported(tmp_path: Path) -> None:
 
 def test_a_drawing_of_ones_own_confirms_or_refutes(tmp_path: Path, capsys: Any) -> None:
     (tmp_path / "other").mkdir()
-    path, other = written(tmp_path, "pocket-island"), written(tmp_path / "other", "floor").parent / "drawing.dxf"
+    path, other = (
+        written(tmp_path, "pocket-island"),
+        written(tmp_path / "other", "floor").parent / "drawing.dxf",
+    )
     drawing = tmp_path / "drawing.dxf"
     code, line = checked(capsys, path, "--dxf", drawing)
     assert (code, "confirmed" in line) == (0, True), line
@@ -210,8 +232,27 @@ def outcome(text: str, operation: str, control: str) -> tuple[int, str]:
 
 
 SURE = (
-    *("G54 -> G55", "M3 lost", "M3 -> M4", "M6 lost", "M8 lost", "G17 -> G18", "G21 -> G20", "G43 lost", "G53 lost"),
-    *("another T", "another H", "S times 10", "F times 100", "point lost", "I off by 1", "Y off by 10", "Z sign"),
+    *(
+        "G54 -> G55",
+        "M3 lost",
+        "M3 -> M4",
+        "M6 lost",
+        "M8 lost",
+        "G17 -> G18",
+        "G21 -> G20",
+        "G43 lost",
+        "G53 lost",
+    ),
+    *(
+        "another T",
+        "another H",
+        "S times 10",
+        "F times 100",
+        "point lost",
+        "I off by 1",
+        "Y off by 10",
+        "Z sign",
+    ),
     *("line lost: safe start", "line lost: tool change", "cut short", "tab lost"),
 )
 """Faults of a text that nothing excuses."""
@@ -276,7 +317,9 @@ def test_every_fault_is_worth_a_word_of_the_grammar() -> None:
 @settings(max_examples=30, deadline=None)
 def test_a_circle_of_a_certificate_is_the_circle(radius: float, x: float, holes: int) -> None:
     outer = shapely.Polygon(Loop((circle((x, 1.0), radius),)).flatten())
-    inner = [shapely.Point(x + radius * (k - 2) / 4, 1.0).buffer(radius / 12, quad_segs=60) for k in range(holes)]
+    inner = [
+        shapely.Point(x + radius * (k - 2) / 4, 1.0).buffer(radius / 12, quad_segs=60) for k in range(holes)
+    ]
     shape = shapely.difference(outer, shapely.union_all(inner))
     nodes = rings(shape)
     again = polygons(nodes)
