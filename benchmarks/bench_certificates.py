@@ -5,7 +5,7 @@
 A fault of a text is one of those of ``tests/cam/mutants.py``, EACH of every kind, in a program of
 ``tests/golden/operations`` that the checker confirms; its certificate claims whatever moves it makes, so that
 only what these do to the part is left to refute. Faults of part, shop and certificate are sealed anew. A text
-that is confirmed is judged as in ``benchmarks/mutations.py``: by what the machine does with it, and by our proof.
+that is confirmed is judged by what the machine does with it, and by our proof.
 """
 
 import copy
@@ -69,7 +69,7 @@ def outcome(content: Content, text: str, *, claims: bool) -> tuple[str, str]:
 
 
 def judged(source: tuple[str, str, Machined, Content], text: str) -> str:
-    """Why a faulty text may be confirmed: the machine does the same, our proof says so too, or what it says."""
+    """Why a text may be confirmed: the machine does the same, our proof says so too; or what that says."""
     operation, control, item, _ = source
     known = mutations.Source(f"{operation} {control}", control, item.job, item.text)
     try:
@@ -130,25 +130,27 @@ def _claim(axis: str) -> Change:
 CHANGES: dict[str, Change] = {
     "part: a contour is moved": _moved_ring,
     "part: a corner is moved": _moved_node,
-    "part: a hole is missing": lambda c, rng: c["part"]["sections"][-1].pop(),
+    "part: a hole is missing": lambda c, _: c["part"]["sections"][-1].pop(),
     "part: thicker or thinner": _level,
     "shop: a thicker tool": _tool("radius", 20, 1000),
     "shop: a thinner tool": _tool("radius", -1000, -30),
     "shop: short flutes": _tool("flute_length", 0.01, 0.06),
     "shop: a slower edge": _tool("speed", 0.1, 0.6),
-    "shop: another work offset": lambda c, rng: c["machine"].update(work_offset="G58"),
+    "shop: another work offset": lambda c, _: c["machine"].update(work_offset="G58"),
     "shop: a smaller machine": lambda c, rng: c["machine"].update(y=[0.0, float(rng.uniform(100, 9000))]),
     "shop: a slower spindle": lambda c, rng: c["machine"].update(spindle=[10, float(rng.uniform(100, 2000))]),
-    "shop: a jaw in the way": lambda c, rng: c["hold"]["prisms"].append(
+    "shop: a jaw in the way": lambda c, _: c["hold"]["prisms"].append(
         {"top": 5000, "stop": 0, "rings": [[[-9e4, -9e4], [9e4, -9e4], [9e4, 9e4], [-9e4, 9e4]]]}
     ),
     "certificate: another x": _claim("x"),
     "certificate: another z": _claim("z"),
     "certificate: another line": _claim("line"),
     "certificate: wider limits": lambda c, rng: c["limits"].update(gouge=float(rng.uniform(6, 50))),
-    "certificate: another control": lambda c, rng: c.update(control="grbl" if c["control"] != "grbl" else "haas"),
-    "certificate: a table is missing": lambda c, rng: c.pop(str(rng.choice(["part", "tools", "moves", "stock", "hold"]))),
-}  # fmt: skip
+    "certificate: another control": lambda c, _: c.update(
+        control="haas" if c["control"] == "grbl" else "grbl"
+    ),
+    "certificate: a table is missing": lambda c, rng: c.pop(str(rng.choice(["part", "tools", "moves"]))),
+}
 
 
 def texts(every: list[Any], each: int, seed: int, found: Counter[tuple[str, str]]) -> None:
@@ -166,7 +168,7 @@ def texts(every: list[Any], each: int, seed: int, found: Counter[tuple[str, str]
                 said = why if why in {"the same", "proven too"} else said
                 if said == "confirmed":
                     print(
-                        f"{every[place][:2]} {kind} line {made.line}: {made.change} | {why[:160]}", flush=True
+                        f"{every[place][:2]} {kind} line {made.line}: {made.change} | {why[:99]}", flush=True
                     )
             found["text", said] += 1
 
