@@ -39,6 +39,7 @@ from mutation_tests import ROOMS, ROOT, Reaching, Suite, afresh, forked, tree
 
 AREAS: dict[str, tuple[str, ...]] = {
     "proof": ("cam/mechwright_cam/proof/",),
+    "checker": ("cam/mechwright_check/",),
     "readers": ("cam/mechwright_cam/controls/",),
     "planning": tuple(f"cam/mechwright_cam/{room}/" for room in ("planning", "operations", "plane", "setup")),
     "geometry": ("core/mechwright/geometry/",),

@@ -233,9 +233,9 @@ def leftover(case: Case) -> None:
             continue  # what is cut to a wall further down is so here as well
         done += [] if tabs else [shape]
         holes = [shapely.Polygon(ring) for part in shapely.get_parts(shape) for ring in part.interiors]
-        bores = shapely.union_all([hole.buffer(-near) for hole in holes if _is_round(hole)])
+        bores = [hole.buffer(-near) for hole in holes if _is_round(hole)]
         closed = shape.buffer(radius, **fine)
-        walls = shapely.union(shapely.boundary(closed.buffer(near - radius, **fine)), shapely.boundary(bores))
+        walls = shapely.union_all(shapely.boundary([closed.buffer(near - radius, **fine), *bores]))
         lifted = shapely.union_all([tab.buffer(2 * widest) for tab in tabs])
         walls = shapely.difference(shapely.intersection(walls, inner), lifted)
         cut = case.fed.below(bottom + SAG)

@@ -47,18 +47,15 @@ def levels_of(path: Path, thickness: float) -> list[tuple[float, float, Any]]:
             raise UnknownError(f"{path.name}: its units are not millimetres")
     except (OSError, DXFError, TypeError, ValueError, AttributeError, LookupError) as error:
         raise UnknownError(f"{path.name}: cannot be read as a drawing ({type(error).__name__})") from None
-    through, recesses = [], []
+    through, recesses = list[Any](), list[Any]()
     for layer, lines in curves.items():
-        recess = RECESS.fullmatch(layer)
-        if not (recess or THROUGH.fullmatch(layer)):
+        if recess := RECESS.fullmatch(layer):
+            recesses.append((float(recess[2] or 0), min(float(recess[1]), thickness), _region(lines, path)))
+        elif THROUGH.fullmatch(layer):
+            through += lines
+        else:
             raise UnknownError(f"{path.name}: the layer {layer!r:.40} has no meaning here")
-        through += [] if recess else _contours(lines, path)
-        if recess:
-            top, bottom = float(recess[2] or 0), min(float(recess[1]), thickness)
-            recesses += [(top, bottom, shape) for shape in _contours(lines, path)]
-    plate = shapely.Polygon()
-    for shape in sorted(through, key=shapely.area, reverse=True):
-        plate = shapely.symmetric_difference(plate, shape)
+    plate = _region(through, path)
     heights, found = sorted({0.0, thickness, *(h for top, bottom, _ in recesses for h in (top, bottom))}), []
     for top, bottom in pairwise(heights):
         open_ = [shape for start, end, shape in recesses if start <= top and end >= bottom]
@@ -66,8 +63,8 @@ def levels_of(path: Path, thickness: float) -> list[tuple[float, float, Any]]:
     return found
 
 
-def _contours(lines: list[Any], path: Path) -> list[Any]:
-    """The regions that curves enclose; ends that nearly meet are one."""
+def _region(lines: list[Any], path: Path) -> Any:
+    """What lies within an odd number of the contours of curves, of which ends that nearly meet are one."""
     known: list[Any] = []
     for line in lines:
         for end in (0, -1):
@@ -76,7 +73,10 @@ def _contours(lines: list[Any], path: Path) -> list[Any]:
     merged = shapely.get_parts(shapely.line_merge(shapely.MultiLineString(lines)))
     if not all(line.is_closed and len(line.coords) > 3 for line in merged):
         raise UnknownError(f"{path.name}: a contour is not closed")
-    return [shapely.Polygon(line) for line in merged]
+    region = shapely.Polygon()
+    for line in merged:
+        region = shapely.symmetric_difference(region, shapely.Polygon(line))
+    return region
 
 
 def compare(case: Case, origin: list[float], path: Path) -> None:

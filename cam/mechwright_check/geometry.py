@@ -167,14 +167,17 @@ def uncovered(walls: Any, chords: Chords, radii: np.ndarray) -> np.ndarray:
     groups = [(radius, np.flatnonzero(radii == radius)) for radius in np.unique(radii[radii > 0])]
     trees = [(radius, mine, shapely.STRtree(lines[mine])) for radius, mine in groups]
     while len(left):
-        open_ = np.ones(len(left), dtype=bool)
+        open_, bare = np.ones(len(left), dtype=bool), np.ones(len(left), dtype=bool)
         for radius, mine, tree in trees:
             places = np.flatnonzero(open_)
             spot, chord = tree.query(shapely.points(left[places, 0]), predicate="dwithin", distance=radius)
             place, chord = places[spot], mine[chord]
+            bare[place] = False
             held = nearest(left[place, 1], chords.a[chord], chords.b[chord])[0] <= radius
             open_[place[held]] = False
-        left = left[open_]
+        left, bare = left[open_], bare[open_]
+        if bare.any():  # where they begin no capsule is at all
+            return np.asarray(left[bare])
         if len(left) == 0 or np.hypot(*(left[:, 1] - left[:, 0]).T).max() < SHORTEST:
             break
         middle = left.mean(axis=1)
