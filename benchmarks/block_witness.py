@@ -2,6 +2,7 @@
 
 ``python benchmarks/block_witness.py linuxcnc COUNT [SEED]``
 ``python benchmarks/block_witness.py grbl COUNT [SEED] --parser PROGRAM``
+``... --words 2``: blocks of two words of the control's table, or three, instead, so many of them or all.
 
 Prints programs that our reader accepts and that the control refuses, or moves otherwise by; the exit code
 is 1 if there are any. LinuxCNC is ``rs274`` of the Debian package linuxcnc-uspace. ``--parser`` is Grbl's
@@ -22,7 +23,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "cam"))
-from random_blocks import SHIFTED, by_rs274, difference, ours, programs
+from random_blocks import SHIFTED, by_rs274, difference, of_alphabet, ours, programs
 
 
 def by_grbl(texts: list[str], parser: str) -> list[tuple[bool, str]]:
@@ -61,9 +62,13 @@ def main() -> int:
     asked.add_argument("count", type=int)
     asked.add_argument("seed", type=int, nargs="?", default=1)
     asked.add_argument("--parser", help="Grbl's parser as a program")
+    asked.add_argument("--words", type=int, default=0, help="blocks of so many words of the table")
     asked.add_argument("--processes", type=int, default=2)
     given = asked.parse_args()
-    texts = programs(given.control, given.count, given.seed)
+    if given.words:
+        texts = of_alphabet(given.control, given.words, given.count, given.seed)
+    else:
+        texts = programs(given.control, given.count, given.seed)
     if given.control == "grbl":
         found = by_grbl(texts, given.parser)
     else:

@@ -10,6 +10,7 @@ import random
 import re
 import tempfile
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from test_rs274 import distinct
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading import Kind, Run
 from mechwright_cam.controls.reading.read import interpret
+from mechwright_cam.controls.words.table import Use
 
 NEAR = 1.1e-3
 """Ends of moves are the same within this, mm: Grbl counts in single precision."""
@@ -177,6 +179,41 @@ def programs(control: str, count: int, seed: int) -> list[str]:
         lines += [changed(rng.choice(blocks), blocks, rng) for _ in range(rng.choice((1, 1, 2, 3)))]
         made.append("\n".join([*lines, "M2", ""]))
     return made
+
+
+ADDRESSES = (
+    "X3",
+    "Y2",
+    "Z4",
+    "I1",
+    "J0",
+    "K0",
+    "R1.5",
+    "P1",
+    "Q0.5",
+    "L1",
+    "L2",
+    "D1",
+    "H1",
+    "F50",
+    "S9",
+    "T1",
+    "N7",
+)
+"""Words that are no codes, for pairs and triples of all words."""
+
+
+def of_alphabet(control: str, size: int, count: int, seed: int) -> list[str]:
+    """Programs with a block of so many words of the control's table, behind a state: all, or so many drawn."""
+    rng = random.Random(seed)  # noqa: S311 - nothing secret
+    rows = BY_NAME[control].dialect.words.known.values()
+    words = [*(row.word for row in rows if row.use is not Use.REFUSED), *ADDRESSES]
+    states = ("", *STATES[""], *STATES.get(control, ()))
+    blocks = [(state, block) for block in combinations(words, size) for state in states]
+    chosen = blocks if count >= len(blocks) else rng.sample(blocks, count)
+    head = ["G21 G90 G17 G94 G91.1 G40 G49 G54 G61", "G0 X1 Y1 Z5", "G1 X2 Y1 F100"]
+    head[0] += " G98" if control == "linuxcnc" else ""
+    return ["\n".join([*head, *filter(None, [state]), " ".join(block), "M2", ""]) for state, block in chosen]
 
 
 def changed(block: str, blocks: tuple[str, ...], rng: random.Random) -> str:

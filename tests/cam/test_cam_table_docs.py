@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import cam_keys
+import control_words
 
 ROOT = Path(__file__).parents[2]
 FINDINGS = (ROOT / "docs" / "machining" / "findings.md").read_text(encoding="utf-8")
@@ -12,6 +13,12 @@ FINDINGS = (ROOT / "docs" / "machining" / "findings.md").read_text(encoding="utf
 def test_every_key_is_on_the_page_with_its_default_and_meaning() -> None:
     assert cam_keys.PAGE.read_text(encoding="utf-8") == cam_keys.page(), (
         "python docs/cam_keys.py writes it anew"
+    )
+
+
+def test_the_tables_of_words_are_those_that_the_readers_go_by() -> None:
+    assert control_words.PAGE.read_text(encoding="utf-8") == control_words.page(), (
+        "python docs/control_words.py writes them anew"
     )
 
 

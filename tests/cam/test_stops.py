@@ -84,7 +84,7 @@ def test_a_reference_return_ends_the_length_offset_on_fanuc_and_haas_only() -> N
         if control == "grbl":
             continue
         reader = BY_NAME[control]
-        run = interpret(text, replace(reader.dialect, percent=True))
+        run = interpret(text, replace(reader.dialect, text=replace(reader.dialect.text, percent=True)))
         assert run.states[run.state[-1]].length_offset == (None if control in {"fanuc", "haas"} else 1)
 
 

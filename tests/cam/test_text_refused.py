@@ -79,6 +79,7 @@ def test_linuxcnc_refuses_it_as_well(lines: str, tmp_path: Path) -> None:
         ("fanuc", "G8", "G8 needs P"),
         ("fanuc", "G5.1 Q2", r"G5\.1 Q2 lets Fanuc round corners further .* write Q1"),
         ("fanuc", "G8 P3", r"G8 P3 lets Fanuc round corners further .* write P1"),
+        ("fanuc", "M3.0", r"M3\.0 has a decimal point, and Fanuc takes M whole"),
         ("fanuc", "G4 P0.5", r"P0\.5 has a decimal point, and Fanuc takes P whole"),
         ("fanuc", "G82 X1. Y1. Z-1. R1. P250.", r"P250\. has a decimal point"),
         *((c, "G20", "G20 in a program with other units") for c in ("fanuc", "haas")),

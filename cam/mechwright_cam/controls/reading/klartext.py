@@ -15,7 +15,6 @@ IPA, IZ
     Angle and height of a helix, from where the tool stands.
 """
 
-import math
 import re
 from collections.abc import Callable
 
@@ -25,12 +24,14 @@ from mechwright_cam.controls.reading.klartext_labels import Labels
 from mechwright_cam.controls.reading.klartext_words import (
     NAME,
     NUMBER,
+    SMALLEST_TURN,
     check_length,
     dwell_of,
     functions_of,
     plain,
     refused,
     tolerance_of,
+    turns_of,
     words_of,
     worked_out,
 )
@@ -40,11 +41,8 @@ TENTHS = 10.0
 """Feeds of a program in inches are in tenths of an inch a minute."""
 LAST_PRESET = int(WORDS.of("Q339").most)
 """The presets that a job's work offsets G54 to G59 are: rows 1 to 6."""
-FULL_TURN = 360.0
 LARGEST_TURN = WORDS.of("IPA").most
 """The largest IPA that the control takes, degrees."""
-SMALLEST_TURN = 1e-4
-"""The last decimal of an angle, degrees."""
 HEAD = "G17 G90 G90.1 G94"
 """What holds at the start of every program, whatever ran before it; arcs have absolute centres here."""
 
@@ -318,11 +316,10 @@ class _Reading:
         return ""
 
     def _arc(self, number: int, code: str) -> str:
-        by_radius = code.startswith("CR")
-        words = words_of(number, code, WORDS.known["CR" if by_radius else "C"])
-        name = "CR" if by_radius else "C"
-        needed = {"X", "Y", "DR"} | ({"RADIUS"} if by_radius else set())
-        if not needed <= set(words):
+        name = "CR" if (by_radius := code.startswith("CR")) else "C"
+        row = WORDS.known[name]
+        words = words_of(number, code, row)
+        if not set(row.one_of) <= set(words):
             raise fail(number, f"{name} needs {'X, Y, R and DR' if by_radius else 'X, Y and DR'}")
         centre = f"R{words['RADIUS']}" if by_radius else "I{} J{}".format(*self._pole_of(number))
         self._in_plane(number, words)
@@ -350,22 +347,16 @@ class _Reading:
             raise fail(number, f"IPA{turn:g}: a block turns by {LARGEST_TURN} degrees at most, and not by 0")
         if (turn > 0) != (words["DR"] == "G3"):
             raise fail(number, "IPA and DR turn to different sides; give both one sign")
-        whole, part = divmod(abs(turn), FULL_TURN)
-        if FULL_TURN - part < SMALLEST_TURN / 2:
-            whole, part = whole + 1, 0.0
-        if part >= SMALLEST_TURN / 2 or not whole:
-            x, y = rotated((x, y), (float(centre[0]), float(centre[1])), math.copysign(part, turn))
-            whole += 1
+        turns, part = turns_of(turn)
+        if part:
+            x, y = rotated((x, y), (float(centre[0]), float(centre[1])), part)
         said = [words["DR"], words.get("R", ""), f"X{worked_out(x)} Y{worked_out(y)}"]
         self.place["X"], self.place["Y"] = float(worked_out(x)), float(worked_out(y))
         if z is not None:
             self.place["Z"] = z + down
             said.append(f"Z{worked_out(z + down)}" if down else "")
-        said += [
-            "I{} J{}".format(*centre),
-            f"P{whole:.0f}" if whole > 1 else "",
-            self._feed_word(number, words),
-        ]
+        said += ["I{} J{}".format(*centre), f"P{turns}" if turns > 1 else ""]
+        said.append(self._feed_word(number, words))
         return " ".join(filter(None, [*said, self._ms(number, words.get("M", ""), moving=True)]))
 
     def _pole_of(self, number: int) -> tuple[str, str]:

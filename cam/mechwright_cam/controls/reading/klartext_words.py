@@ -1,5 +1,6 @@
 """The words of Klartext blocks: which are read, as what, and what is said of the others."""
 
+import math
 import re
 
 from mechwright.errors import ProgramError
@@ -15,6 +16,9 @@ AT_THE_END = frozenset({0, 1, 2, 5, 9, 30})
 MACHINE_PLACE = "M91"
 NUMBER = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)"
 """A number, with a point or a comma."""
+FULL_TURN = 360.0
+SMALLEST_TURN = 1e-4
+"""The last decimal of an angle, degrees."""
 _WORD = re.compile(rf"([A-Z]+)(?:({NUMBER})|(?<=DR)([+-]))?(?= |$)")
 _NAMED = re.compile(r"[A-Z]*")
 
@@ -35,6 +39,20 @@ def plain(value: str) -> str:
 def worked_out(value: float) -> str:
     """A number that was worked out."""
     return f"{value:.9f}".rstrip("0").rstrip(".")
+
+
+def turns_of(angle: float) -> tuple[int, float]:
+    """The arcs of a helix, and the angle by which its end is turned from its start, degrees.
+
+    >>> turns_of(2880.0), turns_of(-90.0), turns_of(720.5)
+    ((8, 0.0), (1, -90.0), (3, 0.5))
+    """
+    whole, part = divmod(abs(angle), FULL_TURN)
+    if FULL_TURN - part < SMALLEST_TURN / 2:
+        whole, part = whole + 1, 0.0
+    if whole and part < SMALLEST_TURN / 2:
+        return int(whole), 0.0
+    return int(whole) + 1, math.copysign(part, angle)
 
 
 def words_of(number: int, code: str, row: Code) -> dict[str, str]:

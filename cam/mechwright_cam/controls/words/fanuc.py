@@ -39,7 +39,7 @@ WORDS = (
     .bounded(
         Address("F", 0, point="inches"),
         Address("P", point="never"),
-        *(replace(RS274.of(letter), point="never") for letter in "STHDLM"),
+        *(replace(RS274.of(letter), letter=letter, point="never") for letter in "STHDLM"),
     )
 )
 
