@@ -61,7 +61,7 @@ def box(text):
     return shapely.box(x, y, x + width_of(text.text, text.height), y + text.height)
 
 
-HEADS = {"Hole", "Corner", "Contours", "To be measured", "Geometrical tolerances"}
+HEADS = {"Hole", "Corner", "Contours", "Data", "To be measured", "Geometrical tolerances"}
 
 
 def rows(sheet):
@@ -187,6 +187,52 @@ def test_threads_depths_recesses_and_datums_are_told():
     assert "⌀6 H7 (0/+0.012) Ra 1.6 through" in lines
     assert "recess, 3 deep" in lines
     assert "60 | 35" in lines, "a corner of the rim, from the dowel"
+
+
+@pytest.mark.parametrize(
+    ("thread", "core", "words"),
+    [
+        (Thread("t", (60.0, 15.0), 6.0, 1.0, 10.0), 5.0, "M6-6H, through / ⌀5 through"),
+        (Thread("t", (60.0, 15.0), 6.0, 0.75, 6.0), 5.2, "M6x0.75-6H, 6 deep / ⌀5.2 through"),
+        (Thread("t", (60.0, 15.0), 6.0, 1.0, 6.0, left=True), 5.0, "M6 LH-6H, 6 deep / ⌀5 through"),
+        (
+            Thread("t", (60.0, 15.0), 6.35, 1.27, 6.0, inch="1/4-20 UNC"),
+            5.1,
+            "1/4-20 UNC-2B, 6 deep / ⌀5.1 through",
+        ),
+    ],
+)
+def test_a_thread_has_its_class_and_its_drill(thread, core, words):
+    holes = (
+        Bore("core", (60.0, 15.0), core, 0.0, 10.0),
+        Profile("outside", SQUARE.outer, "outside", 0.0, 10.0),
+    )
+    one = replace(plate(), machined=holes, details=(thread,))
+    assert words in "\n".join(said(plate_sheet(PlateDrawing(one, Tolerances()), BLOCK)))
+
+
+def test_curves_have_a_frame_and_teeth_a_table():
+    wavy = Outline(
+        Loop.polygon(
+            [
+                (
+                    (30 + math.sin(9 * k / 30)) * math.cos(k / 30),
+                    (30 + math.sin(9 * k / 30)) * math.sin(k / 30),
+                )
+                for k in range(188)
+            ]
+        ),
+        (),
+    )
+    one = Part("wheel", wavy, 10.0, "steel", data=(("module", "2"), ("number of teeth", "30")))
+    sheet = plate_sheet(PlateDrawing(one, Tolerances()), BLOCK)
+    lines = "\n".join(said(sheet))
+    assert "module | 2" in lines
+    assert "number of teeth | 30" in lines
+    words = [text.text for text in texts(sheet)]
+    assert "0.015 UZ+0.0025" in words, "5 µm into the wall, 10 µm off it"
+    square = plate_sheet(PlateDrawing(plate(), Tolerances()), BLOCK)
+    assert not any("UZ" in text.text for text in texts(square)), "a table has its corners"
 
 
 def test_zones_follow_the_tolerances_of_the_design():

@@ -146,7 +146,18 @@ def test_the_built_in_library_goes_through_every_format(tmp_path):
     tools = built_in().tools
     told = {name: export(tools, tmp_path / name)[1] for name in LACKS}
     assert told["crib.toml"] == []
-    assert told["crib.json"] == told["crib.tools"] == ["holds no centre_cutting of engrave-3"]
+    meant, taps = (
+        [tool for tool in tools if test(tool)] for test in (lambda t: t.purpose, lambda t: t.pitch)
+    )
+    assert (
+        told["crib.json"]
+        == told["crib.tools"]
+        == [
+            "holds no centre_cutting of engrave-3",
+            f"holds no purpose of drill-2.8, drill-3.4, drill-3.8 and {len(meant) - 3} more",
+            f"holds no chamfer_length of tap-m3, tap-m4, tap-m5 and {len(taps) - 3} more",
+        ]
+    )
     assert told["crib.tbl"] == [f"holds no cutting of spot-6, drill-2, drill-2.5 and {len(tools) - 3} more"]
     assert told["Library/crib.fctl"][0] == "holds no tool of spot-6"
     assert (tmp_path / "Bit" / "mill-6.fctb").exists()

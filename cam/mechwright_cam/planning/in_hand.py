@@ -4,7 +4,9 @@ from mechwright.contracts.finding import Change, Finding
 from mechwright.designs.design import Design
 from mechwright.remedies.keys import thickness_keys
 from mechwright.standards.stock import AS_THICK
+from mechwright_cam.setup.clamping import widest_channel
 from mechwright_cam.setup.job import Job
+from mechwright_cam.setup.lay_out import FRAME
 from mechwright_cam.shop.holding import Stock
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.workshop_file import Shop
@@ -26,12 +28,26 @@ def from_hand(job: Job, shop: Shop, design: Design) -> tuple[Stock | None, list[
     sizes = blanks(shop, material, thickness, job.settings)
     if not sizes:
         return None, []
-    x0, y0, x1, y1 = job.stock
-    fitting = [size for size in sizes if size[0] >= x1 - x0 and size[1] >= y1 - y0]
+    fitting = next((found for needed in _needs(job) if (found := _larger(sizes, needed))), [])
     if not fitting:
         return None, [_too_small(job, shop, sizes[-1])]
     length, width = fitting[0]
     return Stock(length=length, width=width, finished=stock.finished), []
+
+
+def _needs(job: Job) -> list[tuple[float, float]]:
+    """Sizes of a blank, mm: with a rim for clamps, and where the design leaves the stock open without one."""
+    (x0, y0, x1, y1), stock = job.stock, job.settings.stock
+    found = [(x1 - x0, y1 - y0)]
+    if stock.margin is None and not stock.finished:
+        left, low, right, high = job.target.bounds
+        around = 2 * (widest_channel(job) + FRAME)
+        found.append((right - left + around, high - low + around))
+    return found
+
+
+def _larger(sizes: list[tuple[float, float]], needed: tuple[float, float]) -> list[tuple[float, float]]:
+    return [size for size in sizes if size[0] >= needed[0] and size[1] >= needed[1]]
 
 
 def blanks(shop: Shop, material: str, thickness: float, settings: CamSettings) -> list[tuple[float, float]]:
@@ -74,9 +90,9 @@ def _no_thickness(job: Job, shop: Shop, design: Design) -> Finding:
 
 
 def _too_small(job: Job, shop: Shop, largest: tuple[float, float]) -> Finding:
-    x0, y0, x1, y1 = job.stock
+    length, width = _needs(job)[-1]
     message = (
-        f"{job.part.name} takes a plate of {x1 - x0:.1f} x {y1 - y0:.1f} x {job.thickness:g} mm of "
+        f"{job.part.name} takes a plate of {length:.1f} x {width:.1f} x {job.thickness:g} mm of "
         f"{job.part.material}; the largest blank in hand is {largest[0]:g} x {largest[1]:g} mm"
     )
     return Finding.warning("shop.stock", "shop", message, remedy=f"add a larger one to {shop.path.name}")

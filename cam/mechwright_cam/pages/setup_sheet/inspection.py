@@ -12,6 +12,7 @@ from mechwright_cam.shop.lengths import Lengths
 
 GENERAL = "ISO 2768-m"
 """What holds where the part says no tolerance."""
+NO_LIMIT = "–"
 MOST = 40
 """Rows of a sheet: on a wheel of a hundred holes nobody measures more."""
 
@@ -25,6 +26,11 @@ class Measured:
     least: str
     greatest: str
     by: str
+
+    @property
+    def has_limits(self) -> bool:
+        """Whether what is typed in can be told to be within its limits."""
+        return NO_LIMIT not in (self.least, self.greatest)
 
 
 def inspection(job: Job, to: Lengths) -> list[Measured]:
@@ -41,7 +47,7 @@ def _listed(job: Job, to: Lengths) -> Iterator[Measured]:
     x0, y0, x1, y1 = job.target.bounds
     for measure in job.part.measures:
         sizes = (measure.nominal, measure.least, measure.greatest)
-        nominal, least, greatest = ("–" if one is None else _text(one, to, 3) for one in sizes)
+        nominal, least, greatest = (NO_LIMIT if one is None else _text(one, to, 3) for one in sizes)
         yield Measured(measure.what, nominal, least, greatest, measure.by)
     yield _general("overall, along X", x1 - x0, to)
     yield _general("overall, along Y", y1 - y0, to)
@@ -77,7 +83,7 @@ def _general(what: str, nominal: float, to: Lengths) -> Measured:
     try:
         off = general_length(nominal, "medium")
     except DesignError:
-        return Measured(what, _text(nominal, to), "–", "–", "")
+        return Measured(what, _text(nominal, to), NO_LIMIT, NO_LIMIT, "")
     return Measured(what, _text(nominal, to), _text(nominal - off, to), _text(nominal + off, to), GENERAL)
 
 
