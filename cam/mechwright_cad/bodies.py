@@ -22,6 +22,11 @@ class Body(Placed):
         return self.part.outline is not None
 
 
+def is_spring(part: Part) -> bool:
+    """Whether it is a spring that is stretched between two pins."""
+    return part.bought is not None and part.bought.stretched
+
+
 def is_coupling(part: Part) -> bool:
     """Whether it is clamped on the ends of two shafts."""
     return part.bought is not None and part.bought.designation.startswith("flexible coupling")

@@ -98,7 +98,7 @@ def test_rings_are_left_out_until_their_play_is_measured_and_hubs_are_bonded_aft
         for n, one in said.items()
         if f"bond it with retaining compound, once step {hub} has chosen the rings" in one
     )
-    left = [n for n, one in said.items() if f"Leave it out at first: step {hub} measures" in one]
+    left = [n for n, one in said.items() if f"back: step {hub} measures" in one]
     assert bonded < left[0] < hub
     assert "circlip-10" in said[hub]
     floats = next(n for n, one in said.items() if "measure the float of shaft-driver" in one)

@@ -148,7 +148,10 @@ def test_a_cone_and_a_point_are_drawn():
 def test_threads_in_the_ends_are_drawn_as_deep_as_they_are_and_named():
     sheet = drawn(PILLAR)
     labels = [one.text.text for one in dimensions(sheet, "y")]
-    assert sorted(text for text in labels if text.startswith("M")) == ["M5, 10.3 deep", "M5, 12.3 deep"]
+    assert sorted(text for text in labels if text.startswith("M")) == [
+        "M5 x 10.3 / ⌀4.2 x 12.7",
+        "M5 x 12.3 / ⌀4.2 x 14.7",
+    ]
     level = [
         abs(item.points[0][0] - item.points[1][0]) / sheet.scale
         for item in sheet.items

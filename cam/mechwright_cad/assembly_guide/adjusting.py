@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
+from itertools import takewhile
 
 from mechwright.contracts.axial_stack import AxialStack, StackLength
 from mechwright.mechanics.mating.rounds import Match
@@ -9,7 +10,7 @@ from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_order.groups import is_bearing
 from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
-from mechwright_cad.bodies import is_coupling, is_motor
+from mechwright_cad.bodies import is_coupling, is_motor, is_spring
 
 CROSSWISE = 3
 """So many screws of one flange are tightened crosswise."""
@@ -43,12 +44,23 @@ class Adjusting:
                 return self.plan.steps.index(step) + 1
         return None
 
+    @cached_property
+    def hooked(self) -> int | None:
+        """The step after which springs pull: all that the motor does not drive from below stands by then."""
+        late, springs = self.plan.order.last, [is_spring(body.part) for body in self.plan.bodies]
+        before = list(takewhile(lambda step: not late & {*step.moved}, self._main))
+        return self.plan.steps.index(before[-1]) + 1 if before and any(springs) else None
+
     def aligning(self, step: Step) -> Iterator[str]:
         """How motor and shaft come in line, at the step that fastens the motor."""
         if self.aligned == self.plan.steps.index(step) + 1:
+            heads = all(self.plan.bodies[k].part.turned is None for k in step.moved)
+            what = (
+                "Turn them in until their heads just rest" if heads else "Screw them on until they just rest"
+            )
             yield (
-                "Turn them in until their heads just rest. Turn the coupling by hand, and shift the motor "
-                "until the coupling neither wobbles nor binds through a whole turn; only then tighten."
+                f"{what}. Turn the coupling by hand, and shift the motor until the coupling neither wobbles "
+                "nor binds through a whole turn; only then tighten."
             )
             yield "Tighten the screw of the coupling on the motor's shaft last, and turn once more by hand."
 
@@ -77,15 +89,19 @@ class Adjusting:
                 self._turned.add(head)
                 yield f"Try: {name(shaft)} turns by hand through a whole turn without a tight place."
 
-    def measured(self, step: Step) -> Iterator[str]:
-        """Axial stacks whose parts are all there since this step, with the rings that each takes."""
-        number = self.plan.steps.index(step) + 1
-        for one in self.stacks:
-            if self._measuring.get(one.name) == number:
-                yield _measured(one)
+    def measured(self, step: Step, *, loose: bool = False) -> Iterator[str]:
+        """Axial stacks whose parts are all there since this step, with the rings that each takes.
 
-    def omitted_rings(self, step: Step) -> Iterator[str]:
-        """Shim rings that a later step chooses."""
+        ``loose``: the screws of this step wait for a later one; for the measurement they are tight.
+        """
+        number = self.plan.steps.index(step) + 1
+        found = [one for one in self.stacks if self._measuring.get(one.name) == number]
+        if found and loose:
+            yield "Draw these screws tight while you measure, and loosen them again after it."
+        yield from map(_measured, found)
+
+    def omitted_ring(self, step: Step) -> int | None:
+        """The step that chooses the shim rings that this one would put in; None where none does."""
         number = self.plan.steps.index(step) + 1
         names = {self.plan.bodies[k].part.name for k in step.moved}
         later = [
@@ -95,8 +111,7 @@ class Adjusting:
             for at in (self._measuring.get(one.name, 0),)
             if at > number
         ]
-        if later and len(names) == 1:
-            yield f"Leave it out at first: step {min(later)} measures the play and says what goes in here."
+        return min(later) if later and len(names) == 1 else None
 
     def chosen_at(self, shaft: int) -> int | None:
         """The step that chooses the rings over the hub of a shaft, by its body; None where there are none."""

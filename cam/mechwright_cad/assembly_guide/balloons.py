@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import shapely
 
@@ -24,8 +25,13 @@ class Balloon:
     tip: Point
 
 
-def balloons(lines: Lines, numbers: Mapping[int, int], letter: float) -> list[Balloon]:
-    """One for each item that is seen.
+def balloons(
+    lines: Lines,
+    numbers: Mapping[int, int],
+    letter: float,
+    middles: Mapping[int, Point] = MappingProxyType({}),
+) -> list[Balloon]:
+    """One for each item; of one whose copies are all hidden the leader ends over the middle of one.
 
     Parameters
     ----------
@@ -35,6 +41,8 @@ def balloons(lines: Lines, numbers: Mapping[int, int], letter: float) -> list[Ba
         Body to the number of its item.
     letter
         Height of the numbers, mm.
+    middles
+        Body to its middle in the picture, mm.
     """
     whole = shapely.union_all(list(lines.values()))
     x0, _, x1, _ = whole.bounds
@@ -43,6 +51,9 @@ def balloons(lines: Lines, numbers: Mapping[int, int], letter: float) -> list[Ba
     for body, number in numbers.items():
         if number not in tips and body in lines and not lines[body].is_empty:
             tips[number] = _tip(lines[body])
+    for body, number in numbers.items():
+        if number not in tips and body in middles:
+            tips[number] = middles[body]
     found = []
     ordered = sorted(tips, key=lambda number: (tips[number][0], number))
     half = len(ordered) // 2

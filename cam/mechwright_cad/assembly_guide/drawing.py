@@ -60,7 +60,7 @@ def assembly_sheet(pictures: Pictures, items: Mapping[int, Sequence[Part]], titl
     ring = RADIUS * APART * HEIGHT
     turn = np.linspace(0.0, 2 * np.pi, _CORNERS + 1)
     circle = np.column_stack((np.cos(turn), np.sin(turn)))
-    for balloon in balloons(lines, numbers, HEIGHT / scale):
+    for balloon in balloons(lines, numbers, HEIGHT / scale, pictures.middles):
         (place,), (tip,) = on(np.array([balloon.at])), on(np.array([balloon.tip]))
         away = np.subtract(tip, place)
         start = np.array(place) + ring * away / np.linalg.norm(away)

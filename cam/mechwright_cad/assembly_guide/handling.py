@@ -46,7 +46,8 @@ class Handling:
     def in_turn(self, step: Step) -> int | None:
         """The next step, where both are done for one copy after the other."""
         place = self.plan.steps.index(step)
-        return place + 2 if step.hand and len(step.moved) > 1 and self._all_alike(step.moved) else None
+        held = set(step.hand) & set(step.moved)
+        return place + 2 if held and len(step.moved) > 1 and self._all_alike(step.moved) else None
 
     def in_hand(self, step: Step) -> tuple[Sequence[int], int | None]:
         """Bodies, one of each unit, that are held by hand from this step on, and until which step."""

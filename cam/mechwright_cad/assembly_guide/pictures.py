@@ -40,7 +40,8 @@ class Pictures:
         lines = self.view.lines(self.shifts)
         x0, y0, x1, y1 = shapely.union_all(list(lines.values())).bounds
         letter = LETTER * max(x1 - x0, (y1 - y0) / 2) / SIZE
-        found = balloons(lines, {k: self.numbers[k] for k in self.plan.sequence}, letter)
+        numbers = {k: self.numbers[k] for k in self.plan.sequence}
+        found = balloons(lines, numbers, letter, self.middles)
         parts = [_drawn(lines.values(), "there"), _dashed(self.traces())]
         ring = RADIUS * APART * letter
         for one in found:
@@ -55,6 +56,15 @@ class Pictures:
             ]
         corners = [point for one in found for point in (one.at, one.tip)]
         return self._framed(parts, lines, corners, 1.5 * ring, "Exploded view with the numbers of the items")
+
+    @cached_property
+    def middles(self) -> dict[int, tuple[float, float]]:
+        """Each body to its middle in the exploded view, mm."""
+        found = {}
+        for k, shift in self.shifts.items():
+            ((x, y),) = self.view.flat(self.boxes.centre(k) + shift).tolist()
+            found[k] = (x, y)
+        return found
 
     def step(self, step: Step, label: str) -> str:
         """What stands there, thin, and what comes, thick, outside of its seat."""

@@ -40,7 +40,9 @@ def pressed(order: Order, step: Step, match: Match, name: Callable[[int], str]) 
         mandrel = f"a mandrel of ⌀{min(bores):g} with a shoulder" if bores else "a stepped mandrel"
         reamed = ""
         if pin.part.turned is not None and inner and inner[0].fit is not None:
-            reamed = f" The press narrows its bore: ream it to {inner[0].text} afterwards."
+            fit = inner[0].fit
+            size = fit.short if fit.name else fit.text
+            reamed = f" The press narrows its bore: ream it to ⌀{size} afterwards."
         return (
             f"{words} Use {mandrel}; a tube of at least ⌀{wide}, {FREE:g} mm long, lets it through.{reamed}"
         )

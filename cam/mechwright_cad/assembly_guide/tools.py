@@ -95,6 +95,11 @@ def keyed(key: Part, shafts: Iterable[tuple[int, Part]], name: Callable[[int], s
     return ""
 
 
+def is_outer_ring(part: Part) -> bool:
+    """Whether it is a circlip on a shaft."""
+    return part.bought is not None and part.bought.standard == circlips.ON_SHAFTS
+
+
 def fitted(part: Part) -> str:
     """What to mind with a circlip, a bearing, a dowel or a coupling; empty for the rest."""
     if is_coupling(part):

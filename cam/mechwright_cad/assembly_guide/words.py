@@ -8,24 +8,31 @@ from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.bodies import rigid
 from mechwright.contracts.fitting_marks import FittingMark
 from mechwright.contracts.marking import FITTING_MARKS
-from mechwright.mechanics.mating.rounds import PARALLEL, Match, matches, rounds_of
+from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
+from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_guide.adjusting import Adjusting
+from mechwright_cad.assembly_guide.bonding import DROP, Bonding
 from mechwright_cad.assembly_guide.columns import Columns
+from mechwright_cad.assembly_guide.dowelling import Dowelling
+from mechwright_cad.assembly_guide.facing import facings
 from mechwright_cad.assembly_guide.handling import Handling, whence
 from mechwright_cad.assembly_guide.pin_places import chosen_hole, depths
 from mechwright_cad.assembly_guide.pressing import BENCH, pressed
-from mechwright_cad.assembly_guide.tools import fitted, keyed, screwed
+from mechwright_cad.assembly_guide.tools import fitted, is_outer_ring, keyed, screwed
 from mechwright_cad.assembly_order.groups import is_bearing
 from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
 from mechwright_cad.assembly_order.reach import Tool
-from mechwright_cad.bodies import is_coupling
+from mechwright_cad.bodies import is_coupling, is_spring
 
 NEXT = 0.6
 """How much further than the nearest lies what also counts as met, mm: more than the gap between links."""
 
 ALIKE = 0.1
 """Threads whose depths differ by less, mm, are alike."""
+
+UPWARDS = 0.5
+"""Share of a way that goes against the floor, from which on what comes along it comes from underneath."""
 
 _TRIED = {
     "prismatic": "slides freely on",
@@ -46,6 +53,8 @@ class Words:
         self._first = {k: step for step in reversed(plan.steps) for k in step.moved}
         self._last |= {plan.sequence[0]: plan.steps[0]} if plan.steps else {}
         self._columns = Columns(plan)
+        self._bonding = Bonding(plan, self._adjusting, self.name)
+        self._dowelling = Dowelling(plan, self.name)
         self._said: set[frozenset[str]] = set()
 
     def name(self, k: int) -> str:
@@ -79,11 +88,18 @@ class Words:
                 f"No straight way brings {self.names(step.moved)} together one after the other: tilt them "
                 "into each other, or take a joint apart."
             ]
+        omitted = self._adjusting.omitted_ring(step)
+        if omitted:
+            return [
+                f"Keep {self.names(step.moved)} back: step {omitted} measures the play and says what goes in "
+                "here."
+            ]
         plan = self.plan
         found = matches(plan.bodies, plan.sample, step.moved, step.onto)
         turn = self._handling.turn(step)
         said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
-        said += [*self._from_below(step), *self._adjusting.omitted_rings(step)]
+        said += self._from_below(step)
+        said += facings(plan, step, self.name)
         aligned = list(self._adjusting.aligning(step))
         said += aligned[:1]
         said += dict.fromkeys(self._fits(match, step) for match in found if self._fast(match))
@@ -95,6 +111,7 @@ class Words:
         if not any(self._columns.later(k) for k in new):
             said += self._adjusting.crosswise(step)
         said += aligned[1:]
+        said += dict.fromkeys(filter(None, (self._turned_on(k) for k in new)))
         said += self._drawn_tight(step)
         if self._tight_in(step) and plan.order.seats.is_bush(step.moved[0]):
             said.append(f"{BENCH} Use a mandrel as thick as the shaft, with a shoulder.")
@@ -105,12 +122,21 @@ class Words:
             sentence
             for k in (*step.onto, *step.moved)
             for mark in plan.bodies[k].part.marks
-            if (self._first if mark.joins else self._last).get(k) is step
+            if self._marked(k, mark) is step
             for sentence in self._mark(k, mark)
         )
+        hooked = self._adjusting.hooked
+        if (
+            hooked
+            and any(is_spring(plan.bodies[k].part) for k in new)
+            and hooked > plan.steps.index(step) + 1
+        ):
+            said.append(f"Hang it on one of its pins; step {hooked} hooks its other end.")
+        said += self._dowelling.sentences(step)
         said += dict.fromkeys(self._tries(step, found))
         said += self._adjusting.shafts(step, self.name)
-        said += self._adjusting.measured(step)
+        said += self._adjusting.measured(step, loose=any(self._columns.later(k) for k in step.moved))
+        said += self._bonding.chosen(step)
         said += self._adjusting.run_in(step)
         return said
 
@@ -124,6 +150,13 @@ class Words:
         if body.poses.rotation[self.plan.sample][2, 2] < 0:
             up, down = down, up
         yield f"The thread {up:g} mm deep of {self.name(k)} goes up, that of {down:g} mm down."
+
+    def _marked(self, k: int, mark: FittingMark) -> Step | None:
+        """The step in which a mark is told: of a spring once what it pulls stands in all of its bearings."""
+        hooked = self._adjusting.hooked
+        if hooked and is_spring(self.plan.bodies[k].part):
+            return self.plan.steps[hooked - 1]
+        return (self._first if mark.joins else self._last).get(k)
 
     def _mark(self, k: int, mark: FittingMark) -> Iterator[str]:
         """What a mark tells, and where its dots are punched in a part that has none engraved."""
@@ -146,11 +179,18 @@ class Words:
             yield "Stand the whole on it."
 
     def _from_below(self, step: Step) -> Iterator[str]:
-        """Screws that come from below once the whole stands on its feet."""
-        stood = any(self._handling.stands(one) for one in self.plan.steps[: self.plan.steps.index(step)])
-        below = step.way is not None and step.way[2] * step.down[2] < -PARALLEL
-        if stood and below and any(self.plan.joint(k) is not None for k in step.moved):
+        """Screws that come from underneath as the assembly lies, and what they hold."""
+        steps = self.plan.steps[: self.plan.steps.index(step)]
+        up = step.way is not None and float(np.dot(step.way, step.down)) < -UPWARDS
+        if not up or not all(self.plan.joint(k) is not None for k in step.moved):
+            return
+        if any(self._handling.stands(one) for one in steps):
             yield "Lay the whole on its side for it, or let it stand over the edge of the bench."
+        else:
+            yield (
+                "As it lies, these come up from the bench: let it stand over the edge, or lay it on its "
+                "side, and hold by hand what they screw into."
+            )
 
     def _fits(self, match: Match, step: Step) -> str:
         """How tightly a pin goes into its hole, and how it is brought there."""
@@ -172,7 +212,33 @@ class Words:
         if step is not None and step.way is not None and order.reach.needs_tool(k):
             there = self._columns.there(later) if later else frozenset((*step.onto, *step.moved))
             tool = order.reach.tool(k, np.array(step.way), there)
-        return screwed(part, self.plan.joint(k), self.name, later, tool)
+        said = screwed(part, self.plan.joint(k), self.name, later, tool)
+        return f"{said}{self._standing_out(k, step)}"
+
+    def _standing_out(self, k: int, step: Step | None) -> str:
+        """How far a stud stands out of what it is screwed into in a step."""
+        there = {*step.onto} if step is not None else set()
+        found = [one for one in self.plan.joints if one.screw == k and one.holder in there]
+        if not found or found[0].what.head:
+            return ""
+        return f" Turn it in until {found[0].what.length - found[0].engaged:.1f} mm of it stand out."
+
+    def _turned_on(self, k: int) -> str:
+        """How a bar with threads in its ends, which comes onto a stud, is held and how tight it gets."""
+        form = self.plan.bodies[k].part.turned
+        joints = [one for one in self.plan.joints if one.holder == k]
+        stud = any(not one.what.head and self.put(one.screw) < self.put(k) for one in joints)
+        torques = [one.tightening.torque for one in joints if one.tightening is not None]
+        if form is None or not form.flats or not stud or not torques:
+            return ""
+        return (
+            f"Tool: two open spanners {form.flats[0].across:g} mm, one on the flats of {self.name(k)} and "
+            f"one on those of what the stud stands in; tighten to {torque_text(min(torques))} N m."
+        )
+
+    def put(self, k: int) -> int:
+        """The step in which a body comes."""
+        return self._columns.put.get(k, 0)
 
     def _drawn_tight(self, step: Step) -> Iterator[str]:
         """The screws of a column that stands now."""
@@ -196,7 +262,7 @@ class Words:
             k for match in found for k in (match.pin, match.hole) if k in step.onto
         )
         tight = self._tight_in(step)
-        near = near or tight
+        near = self._grooved(step) or near or tight
         if not near and self._leans(step):
             touch = self.plan.order.standing.touch
             near = {k: None for k in step.onto if any(touch(k, m) for m in step.moved)}
@@ -206,6 +272,18 @@ class Words:
         turned = len(touched) > 0 and all(self.plan.bodies[k].part.turned for k in step.moved)
         how = "into" if pins or tight or (turned and self._leans(step)) else "onto" if touched else "beside"
         return f"{what} {how} {where}, {self.way(step)}."
+
+    def _grooved(self, step: Step) -> dict[int, None]:
+        """The shaft whose groove a circlip goes into, of all that it touches."""
+        bodies, touch = self.plan.bodies, self.plan.order.standing.touch
+        if not all(is_outer_ring(bodies[k].part) for k in step.moved):
+            return {}
+        return {
+            k: None
+            for k in step.onto
+            for form in (bodies[k].part.turned,)
+            if form is not None and form.grooves and any(touch(k, m) for m in step.moved)
+        }
 
     def _tight_in(self, step: Step) -> dict[int, None]:
         """Solids without declared holes into which a step presses a pin or a bush."""
@@ -253,20 +331,13 @@ class Words:
             return f"{pin} goes through {hole} with room, {match.text}: it is no seat."
         if most <= 0:
             tight = f"{0.0 - most:.3f} to {-least:.3f} mm tight"
-            return f"{pin} in {hole} is a press fit, {match.text}, {tight}. {press}"
+            drop = DROP if self.plan.order.seats.may_be_loose(match) else ""
+            return f"{pin} in {hole} is a press fit, {match.text}, {tight}. {press}{drop}"
         if least < 0:
             loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose: light blows, or warm {hole}"
-            return f"{pin} in {hole} is a push fit, {match.text}, {loose}.{self._held(match)}"
+            return f"{pin} in {hole} is a push fit, {match.text}, {loose}.{self._bonding.held(match)}"
         play = f"with a play of {least:.3f} to {most:.3f} mm"
-        return f"{pin} slides in {hole}, {match.text}, {play}.{self._held(match)}"
-
-    def _held(self, match: Match) -> str:
-        """What keeps a pin in a hole that is not tight at both limits."""
-        if self.plan.order.seats.kind(match) != "bonded":
-            return ""
-        later = self._adjusting.chosen_at(match.pin)
-        when = f", once step {later} has chosen the rings" if later else ""
-        return f" Nothing else keeps it there: bond it with retaining compound{when}."
+        return f"{pin} slides in {hole}, {match.text}, {play}.{self._bonding.held(match)}"
 
     def _tries(self, step: Step, found: Sequence[Match]) -> Iterator[str]:
         """What has to move by hand now, as it first can."""
@@ -281,8 +352,8 @@ class Words:
                     "" if match.missing_fits else f" with {least:.3f} to {most:.3f} mm of play, {match.text}"
                 )
                 yield (
-                    f"Grease. Try: {self.name(match.pin)} and {self.name(match.hole)} turn freely on each "
-                    f"other by hand{loose}."
+                    f"{self._bonding.grease(match, step)} Try: {self.name(match.pin)} and "
+                    f"{self.name(match.hole)} turn freely on each other by hand{loose}."
                 )
         for joint in self.plan.motion.joints.values():
             pair = frozenset((self._heads[joint.one], self._heads[joint.two]))

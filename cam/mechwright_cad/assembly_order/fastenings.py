@@ -21,6 +21,9 @@ from mechwright_cad.contacts.screw_joints import ScrewJoint
 
 Kind = Literal["screwed", "pressed", "bonded", "keyed", "ring", "clamped"]
 
+LEAST_TIGHT = 0.003
+"""Interference of a press, mm, below which it may be drawn in by hand."""
+
 UNDER_RING = 1.5
 """From a hub to the circlip that keeps it, mm, at most: shim rings and the play under them."""
 
@@ -50,8 +53,16 @@ class Fastening:
 class Seats:
     """How pins and holes go together: matches of all bodies that touch, and what each does."""
 
-    def __init__(self, bodies: Sequence[Body], motion: Motion, sample: int, standing: BodyLayers) -> None:
+    def __init__(
+        self,
+        bodies: Sequence[Body],
+        motion: Motion,
+        sample: int,
+        standing: BodyLayers,
+        joints: Sequence[ScrewJoint] = (),
+    ) -> None:
         self.bodies, self.sample, self.standing = tuple(bodies), sample, standing
+        self._joints = tuple(joints)
         self._heads = rigid(motion)
         self.touching = [pair for pair in combinations(range(len(self.bodies)), 2) if standing.touch(*pair)]
         self.matches: list[Match] = [
@@ -101,7 +112,21 @@ class Seats:
         screwed_down = pin.turned is not None and pin.turned.threads
         if ring or screwed_down or pin.bought is not None or hole.bought is not None:
             return False
+        if self._is_clamped_to_hub(match):
+            return False
         return not (pin.turned is not None and pin.turned.seats and self._is_under_ring(match))
+
+    def _is_clamped_to_hub(self, match: Match) -> bool:
+        """Whether screws in a hub clamp it to another one on its shaft, by which it is set and then held."""
+        on_shaft = {one.hole for one in self.matches if one.pin == match.pin and self.is_fast(one)}
+        return any(
+            one.holder == match.hole and on_shaft & {k for k, _ in one.clamped} - {match.hole}
+            for one in self._joints
+        )
+
+    def may_be_loose(self, match: Match) -> bool:
+        """Whether a press has next to no interference where both are at their loosest limits."""
+        return -LEAST_TIGHT < match.play[1] <= EXACT and self.kind(match) == "pressed"
 
     def _is_under_ring(self, match: Match) -> bool:
         """Whether a circlip on the shaft keeps a hub there."""

@@ -23,10 +23,12 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.mechanics.mating.rounds import PARALLEL
+from mechwright.standards import dowels
 from mechwright_cad.assembly_order.blocking import Blocking
 from mechwright_cad.assembly_order.fastenings import Fastening
 from mechwright_cad.assembly_order.groups import TOUCHING
 from mechwright_cad.assembly_order.layers import frame_of
+from mechwright_cad.bodies import is_spring
 
 Unit = frozenset[int]
 Way = tuple[float, float, float]
@@ -90,7 +92,11 @@ class Holding:
         if key not in self._falling:
             units, way = self.units(there), np.array(down)
             ground = units[root]
-            others = [unit for unit in sorted(set(units.values()), key=min) if unit != ground]
+            others = [
+                unit
+                for unit in sorted(set(units.values()), key=min)
+                if unit != ground and not self._is_spring(unit)
+            ]
             lying = [unit for unit in others if self._carries(unit, there, ground, way)]
             bearing = frozenset((ground, *lying))
             falls = [
@@ -164,11 +170,19 @@ class Holding:
                     x, y, z = way.tolist()
                     yield unit, (x, y, z)
 
+    def is_dowel(self, unit: Sequence[int]) -> bool:
+        """Whether it is a dowel pin: one comes as soon as the parts that it sets to each other are there."""
+        bought = [self.blocking.bodies[k].part.bought for k in unit]
+        return all(one is not None and one.standard in dowels.STANDARDS for one in bought)
+
     def _hooked(self, unit: Unit) -> bool:
         """Whether it is a spring between two bodies: its pull keeps both hooks on their pins."""
-        bought = [self.blocking.bodies[k].part.bought for k in unit]
         beside = {other for k in unit for other in self.blocking.neighbours[k]} - set(unit)
-        return all(one is not None and one.stretched for one in bought) and len(beside) > 1
+        return self._is_spring(unit) and len(beside) > 1
+
+    def _is_spring(self, unit: Unit) -> bool:
+        """Whether it is a spring, which hangs by a hook until the other one is on its pin."""
+        return all(is_spring(self.blocking.bodies[k].part) for k in unit)
 
     def _tried(self, unit: Unit) -> Iterator[Array]:
         seen = dict.fromkeys((*UPRIGHT, *_SIDES))

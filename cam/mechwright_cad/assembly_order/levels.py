@@ -75,6 +75,7 @@ class Constraints:
     """What an order has to respect: who bars whom, what holds what, which tool gets where.
 
     ``clamped`` (n, n) says whether body i lies under the head of screw j; ``root_of`` what bodies are put on.
+    ``last`` are bodies that come after all that stand above them: the motor, and what carries it.
     """
 
     table: Ways
@@ -84,6 +85,7 @@ class Constraints:
     joints: tuple[ScrewJoint, ...]
     clamped: NDArray[np.bool_]
     root_of: Callable[[tuple[int, ...]], int]
+    last: frozenset[int] = frozenset()
 
 
 def steps_of(given: Constraints, level: Level) -> Iterator[Step]:
@@ -113,6 +115,13 @@ def _before(given: Constraints, units: Sequence[Coming]) -> NDArray[np.bool_]:
     return precedence(count, barred, wishes)
 
 
+def _late(given: Constraints, units: Sequence[Coming]) -> Iterator[tuple[int, int]]:
+    """Coupling, motor and base plate after the rest: a shaft is aligned as it stands in both bearings."""
+    late = [unit for unit in units if given.last.intersection(unit.bodies)]
+    early = [unit for unit in units if unit not in late]
+    yield from ((one.bodies[0], two.bodies[0]) for two in late for one in early)
+
+
 def _wishes(given: Constraints, units: Sequence[Coming]) -> Iterator[tuple[int, int]]:
     """Pairs of bodies: the first should be there before the second comes."""
     for joint in given.joints:
@@ -120,6 +129,7 @@ def _wishes(given: Constraints, units: Sequence[Coming]) -> Iterator[tuple[int, 
             held = (joint.holder, *(k for k, _ in joint.clamped))
             yield from ((k, joint.screw) for k in held)
     yield from ((int(i), int(j)) for i, j in np.argwhere(given.clamped))
+    yield from _late(given, units)
     alone = {unit.bodies[0] for unit in units if len(unit.bodies) == 1}
     tight = [one.joins for one in given.holding.fastenings if one.kind in {"pressed", "bonded"}]
     fixed = alone & frozenset[int]().union(*tight)

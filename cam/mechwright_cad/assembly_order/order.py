@@ -30,7 +30,7 @@ from mechwright_cad.assembly_order.layers import LEVEL, UP, axis_of, own_layers
 from mechwright_cad.assembly_order.levels import Constraints, Level, Step, steps_of
 from mechwright_cad.assembly_order.reach import Reach
 from mechwright_cad.assembly_order.schedule import Coming
-from mechwright_cad.bodies import Body
+from mechwright_cad.bodies import Body, is_coupling, is_motor
 from mechwright_cad.contacts.screw_joints import ScrewJoint, joints_of
 
 CLAMPS = frozenset({"ISO 4762", "ISO 10642"})
@@ -70,7 +70,14 @@ class Order:
         if not self.bodies:
             return ()
         given = Constraints(
-            self.table, self.holding, self.seats, self.reach, self.joints, self._clamped, self._root
+            self.table,
+            self.holding,
+            self.seats,
+            self.reach,
+            self.joints,
+            self._clamped,
+            self._root,
+            self.last,
         )
         return tuple(steps_of(given, self._whole))
 
@@ -96,7 +103,7 @@ class Order:
     @cached_property
     def seats(self) -> Seats:
         """How pins and holes go together."""
-        return Seats(self.bodies, self.motion, self.sample, self.standing)
+        return Seats(self.bodies, self.motion, self.sample, self.standing, self.joints)
 
     @cached_property
     def reach(self) -> Reach:
@@ -212,6 +219,18 @@ class Order:
             self.bodies[k].is_plate and self.heads[self.bodies[k].instance.body] == GROUND for k in under
         )
         return frozenset(under if stands else ())
+
+    @cached_property
+    def last(self) -> frozenset[int]:
+        """What comes last of what hangs below the base: plates at rest, motor and coupling."""
+        return frozenset(
+            k
+            for k in self._below
+            for body in (self.bodies[k],)
+            if (body.is_plate and self.heads[body.instance.body] == GROUND)
+            or is_motor(body.part)
+            or is_coupling(body.part)
+        )
 
     @cached_property
     def _clamped(self) -> NDArray[np.bool_]:

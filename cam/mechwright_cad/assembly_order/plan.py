@@ -100,13 +100,18 @@ def alike(steps: Sequence[Step], order: Order) -> list[Step]:
     found: list[Step] = []
     for step in steps:
         found.append(step)
-        if len(found) > 1 and not found[-2].hand and _copies(order, *found[-2:]):
+        if len(found) > 1 and _together(*found[-2:]) and _copies(order, *found[-2:]):
             found[-2:] = [_merged(*found[-2:])]
         elif len(found) > 3 and _taken_in_turn(order, *found[-4:]):
             part, screw, other, another = found[-4:]
             parts = _merged(part, other)
             found[-4:] = [parts, _merged(replace(screw, onto=_there(parts)), another)]
     return found
+
+
+def _together(one: Step, two: Step) -> bool:
+    """Whether both steps can be told of as one: what a hand holds meanwhile is neither of both parts."""
+    return not one.hand or (one.hand == two.hand and not {*one.moved, *two.moved} & {*one.hand})
 
 
 def _copies(order: Order, one: Step, two: Step) -> bool:
@@ -131,7 +136,9 @@ def _there(step: Step) -> tuple[int, ...]:
 
 
 def _merged(one: Step, two: Step) -> Step:
-    return replace(one, moved=(*one.moved, *two.moved), down=two.down, hand=(*one.hand, *two.hand))
+    return replace(
+        one, moved=(*one.moved, *two.moved), down=two.down, hand=tuple(dict.fromkeys((*one.hand, *two.hand)))
+    )
 
 
 def sequence(steps: Sequence[Step], count: int, root: int | None = None) -> tuple[int, ...]:

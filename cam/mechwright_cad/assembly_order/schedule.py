@@ -113,7 +113,9 @@ class _Bench:
         copy = not falling and last is not None and (last.alike, last.way) == (unit.alike, unit.way)
         fastens = not copy and len(unit.bodies) == 1 and unit.bodies[0] in self.holding.fastened
         helps = fastens and len(self.holding.unretained(after, self.root)) < self._unretained
-        return len(falling) > 1, steps if self._hand else max(steps - 1, 0), not copy, not helps, k
+        locates = not falling and self.holding.is_dowel(unit.bodies)
+        held = steps if self._hand else max(steps - 1, 0)
+        return len(falling) > 1, held, not copy, not locates, not helps, k
 
     def _steps_until_retained(self, chosen: int, there: frozenset[int], down: Way) -> int:
         """After how many more units nothing falls any more, at best; one more than there are if never."""

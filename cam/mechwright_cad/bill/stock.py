@@ -146,7 +146,7 @@ _SURFACES = {
 def _bar(part: Part, turned: Turned) -> Piece:
     """A piece of round bar; where the widest step of the part has no fit its outside stays as it is drawn."""
     name, widest = part.material, turned.greatest
-    across = bar_for(widest, name, turned=not _as_bought(turned))
+    across = bar_for(widest, name, turned=not _as_bought(turned, bar_stock(name).drawn))
     kept = across == widest
     along = math.ceil(round(turned.length + 2 * ALONG, 3))
     stock, grades = bar_stock(name), material(name).grades
@@ -166,10 +166,10 @@ def _bar(part: Part, turned: Turned) -> Piece:
     )
 
 
-def _as_bought(turned: Turned) -> bool:
-    """Whether the widest steps have neither a fit nor a cone."""
+def _as_bought(turned: Turned, drawn: str) -> bool:
+    """Whether the widest steps have no cone, and no fit but the class to which the bar is drawn."""
     widest: list[Step] = [one for one in turned.steps if max(one.foot, one.diameter) == turned.greatest]
-    return all(one.fit is None and one.start is None for one in widest)
+    return all((one.fit is None or one.fit.name == drawn) and one.start is None for one in widest)
 
 
 def _inches(name: str, size: float, wanted: float) -> str:

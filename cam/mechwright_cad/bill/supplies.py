@@ -8,20 +8,18 @@ bonded
     Held by a retaining compound.
 """
 
-import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
-import numpy as np
-
 from mechwright.contracts.bought import Bought
-from mechwright.contracts.part import Bore, Part
+from mechwright.contracts.part import Part
 from mechwright.errors import DesignError
-from mechwright.mechanics.mating.rounds import NEAR, rounds_of
+from mechwright.mechanics.mating.loose_dowels import LooseDowel, loose_dowels
 from mechwright.standards import bushes, circlips, shims
 from mechwright.standards.dowels import dowel_for
 from mechwright.standards.ordering import order_of
 from mechwright.standards.screws import needs_washer, washer
 from mechwright.standards.supply import Supply
+from mechwright_cad.bill.items import FIRST
 from mechwright_cad.bodies import Body
 from mechwright_cad.contacts.screw_joints import ScrewJoint
 
@@ -56,49 +54,28 @@ def supplies_of(
     return [
         *loose,
         *_washers(bodies, joints, numbers),
-        *_compounds([bodies[one.screw].part.name for one in joints if one.is_locked], bonded, loose, numbers),
+        *_compounds(_locked(bodies, joints, numbers), bonded, loose, numbers),
         *_grease(parts.values()),
         *_oil(parts, joints, numbers),
         *_spares(parts, numbers),
+        *_reamers(parts, numbers),
+        *_tools(parts, joints),
     ]
+
+
+def dowel_items(bodies: Sequence[Body], sample: int) -> dict[int, list[LooseDowel]]:
+    """Number of an item to the dowels of one size that are no bodies: the first supplies of a list."""
+    sizes: dict[tuple[float, float], list[LooseDowel]] = {}
+    for one in loose_dowels(bodies, sample):
+        sizes.setdefault((one.diameter, one.room), []).append(one)
+    return dict(enumerate(sizes.values(), FIRST["supply"]))
 
 
 def _loose_dowels(bodies: Sequence[Body], numbers: Mapping[str, int], sample: int) -> Iterator[Supply]:
     """Of each size: through all parts that have its hole in one line, where no pin stands."""
-    lines: dict[tuple[int, int, float], list[tuple[float, float, str]]] = {}
-    for body in bodies:
-        turn, place = body.poses.rotation[sample], body.poses.position[sample]
-        for bore in body.part.features:
-            if isinstance(bore, Bore) and bore.name.startswith("dowel"):
-                top = body.part.thickness - bore.top
-                ends = [
-                    turn @ np.array((*bore.centre, z + body.instance.z)) + place
-                    for z in (top - bore.depth, top)
-                ]
-                low, high = sorted(float(one[2]) for one in ends)
-                key = (round(float(ends[0][0]) / NEAR), round(float(ends[0][1]) / NEAR), bore.diameter)
-                lines.setdefault(key, []).append((low, high, body.part.name))
-    sizes: dict[tuple[float, float], list[tuple[str, ...]]] = {}
-    for (x, y, diameter), spans in lines.items():
-        at = (x * NEAR, y * NEAR)
-        if len(spans) > 1 and not _occupied(bodies, at, diameter, sample):
-            long = max(high for _, high, _ in spans) - min(low for low, _, _ in spans)
-            sizes.setdefault((diameter, round(long, 3)), []).append(tuple(name for *_, name in spans))
-    for (diameter, long), places in sizes.items():
-        items = _items(numbers, (name for those in places for name in those))
-        yield _dowel(diameter, long, len(places), f"joins {items}; not drawn")
-
-
-def _occupied(bodies: Sequence[Body], at: tuple[float, float], diameter: float, sample: int) -> bool:
-    """Whether a pin of about this diameter stands at a place, mm."""
-    return any(
-        not one.inside
-        and abs(one.diameter - diameter) < 0.1 * diameter
-        and math.dist(at, (float(one.at[0]), float(one.at[1]))) < 2 * NEAR
-        for body in bodies
-        if body.part.outline is None
-        for one in rounds_of(body, sample)
-    )
+    for those in dowel_items(bodies, sample).values():
+        items = _items(numbers, (bodies[seat.body].part.name for one in those for seat in one.seats))
+        yield _dowel(those[0].diameter, those[0].room, len(those), f"joins {items}; not drawn")
 
 
 def _dowel(diameter: float, room: float, count: int, note: str) -> Supply:
@@ -133,11 +110,24 @@ def _washers(
         yield _sold("washer", ring.bought, note, len(screws))
 
 
+def _locked(bodies: Sequence[Body], joints: Collection[ScrewJoint], numbers: Mapping[str, int]) -> list[str]:
+    """Which screws are locked in which items: the same screw may stand elsewhere, where it is not."""
+    where: dict[int, set[int]] = {}
+    for one in joints:
+        if one.is_locked:
+            screw, holder = (numbers[bodies[k].part.name] for k in (one.screw, one.holder))
+            where.setdefault(screw, set()).add(holder)
+    return [
+        f"item {screw} in {' and '.join(map(str, sorted(holders)))}"
+        for screw, holders in sorted(where.items())
+    ]
+
+
 def _compounds(
     locked: Sequence[str], bonded: Sequence[str], loose: Collection[Supply], numbers: Mapping[str, int]
 ) -> Iterator[Supply]:
     if locked:
-        note = f"a drop on the thread of {_items(numbers, locked)}; not on threads in plastics"
+        note = f"a drop on the thread of {', '.join(locked)}; not on threads in plastics"
         yield Supply("thread locker", "thread locker, medium strength, 10 ml", note, 1, "bottle")
     if bonded or loose:
         own = [_items(numbers, bonded)] if bonded else []
@@ -172,15 +162,52 @@ def _oil(
 
 
 def _spares(parts: Mapping[str, Part], numbers: Mapping[str, int]) -> Iterator[Supply]:
-    for name, part in parts.items():
-        if part.bought is not None and _standard(part) in circlips.STANDARDS:
-            note = f"spare for item {numbers[name]}: a ring that was opened too far is scrap"
-            yield _sold("spare ring", part.bought, note)
+    sold = {
+        numbers[name]: part.bought
+        for name, part in parts.items()
+        if part.bought is not None and _standard(part) in circlips.STANDARDS
+    }
+    for number, ring in sold.items():
+        yield _sold("spare ring", ring, f"spare for item {number}: a ring that was opened too far is scrap")
     rings = [name for name, part in parts.items() if _standard(part) == shims.STANDARD]
     if rings:
         note = f"the play that is measured is filled in place of {_items(numbers, rings)}"
         sizes = " ".join(f"{one:g}" for one in shims.THICKNESSES)
         yield Supply("shims", f"shim rings {shims.STANDARD}, {sizes} mm, of each size", note, 1, "set")
+
+
+def _reamers(parts: Mapping[str, Part], numbers: Mapping[str, int]) -> Iterator[Supply]:
+    """For bores of bushes that the press narrows: an adjustable one where the class is not H7."""
+    wanted: dict[str, list[str]] = {}
+    for name, part in parts.items():
+        form = part.turned
+        if form is not None and form.bore_fit is not None and any(step.fit for step in form.steps):
+            wanted.setdefault(form.bore_fit.text, []).append(name)
+    for text, names in wanted.items():
+        size, _, name = text.partition(" ")
+        kind = "hand reamer" if name.startswith("H7") else "adjustable hand reamer"
+        note = f"reams {_items(numbers, names)} to {text} after pressing"
+        yield Supply("reamer", f"{kind} for {size} mm", note, 1, "tool")
+
+
+def _tools(parts: Mapping[str, Part], joints: Collection[ScrewJoint]) -> Iterator[Supply]:
+    """What a fitter has in hand."""
+    keys = sorted({one.what.key for one in joints})
+    flats = sorted({one.across for part in parts.values() if part.turned for one in part.turned.flats})
+    standards = {_standard(part) for part in parts.values()}
+    words = [f"hexagon keys {_widths(keys)} mm"] if keys else []
+    words += [f"two open spanners {_widths(flats)} mm"] if flats else []
+    words += ["torque screwdriver or wrench"] if any(one.tightening is not None for one in joints) else []
+    words += ["pliers for outer circlips"] if circlips.ON_SHAFTS in standards else []
+    words += ["dial gauge with stand"] if shims.STANDARD in standards else []
+    words += ["feeler gauges"] if any(part.turned for part in parts.values()) else []
+    words += ["soft hammer", "vice or arbor press"] if words else []
+    if words:
+        yield Supply("hand tools", ", ".join(words), "for the steps of the assembly guide", 1, "set")
+
+
+def _widths(sizes: Sequence[float]) -> str:
+    return ", ".join(f"{one:g}" for one in sizes)
 
 
 def _standard(part: Part) -> str:

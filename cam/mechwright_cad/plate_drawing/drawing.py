@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import shapely
 
 from mechwright.contracts.datum import datum_bore, length_zone
+from mechwright.contracts.materials import material
 from mechwright.contracts.part import Part
 from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.errors import GeometryError
@@ -187,7 +188,7 @@ def plate_sheet(told: PlateDrawing, title: TitleBlock) -> Sheet:
                 tables.draw(sheet, [Row((name,))], (x, y + (HIGH + STEP) / 2))
                 tolerance_frame(sheet, (x + 18.0, y), symbol, zone, datums)
         x += max(sum(tables.widths(rows)) for rows in column) + _BETWEEN
-    stock = f"{part.material}, {number(part.thickness)} mm"
+    stock = f"{material(part.material).grades.plate}, {number(part.thickness)} mm"
     frame(sheet, title.of_part(part, stock, scale), [*GENERAL, _measured(told)])
     projection_sign(sheet, third_angle=title.third_angle)
     return sheet

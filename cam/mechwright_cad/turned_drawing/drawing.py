@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from mechwright.contracts.materials import material
 from mechwright.contracts.part import Part
 from mechwright.contracts.turned import KeySeat, Length, Turned
 from mechwright.errors import GeometryError
@@ -200,5 +201,5 @@ def _cut(sheet: Sheet, turned: Turned, seat: KeySeat, centre: Point) -> None:
 
 def _frame(sheet: Sheet, part: Part, turned: Turned, title: TitleBlock) -> None:
     """Frame, title block, the sign of the projection, and the notes beside them."""
-    frame(sheet, title.of_part(part, part.material, sheet.scale), words.notes(turned))
+    frame(sheet, title.of_part(part, material(part.material).grades.bar, sheet.scale), words.notes(turned))
     projection_sign(sheet, third_angle=title.third_angle)

@@ -2,7 +2,7 @@
 
 import math
 
-from mechwright.contracts.turned import KeySeat, Turned
+from mechwright.contracts.turned import Flats, KeySeat, Turned
 from mechwright.geometry.segments import Point
 from mechwright_cad.sheet.circles import arc
 from mechwright_cad.sheet.sheet import Sheet
@@ -38,7 +38,21 @@ def side(sheet: Sheet, turned: Turned, left: float, axis: float) -> None:
             sheet.lines([(x0 + deep, axis - half), (x0 + deep, axis + half)], "HATCH")
     for seat in turned.seats:
         sheet.lines([(left + s * z, axis + s * y) for z, y in _mouth(seat, turned.length)])
+    for flat in turned.flats:
+        _flat(sheet, turned, flat, (left, axis))
     sheet.lines([(left - OVERHANG, axis), (end + OVERHANG, axis)], "CENTRE")
+
+
+def _flat(sheet: Sheet, turned: Turned, flat: Flats, at: Point) -> None:
+    """One of two flats, seen square on, with the thin diagonals that mark a flat face (ISO 128)."""
+    s, (left, axis) = sheet.scale, at
+    steps = [step for low, step in zip(turned.starts, turned.steps, strict=True) if low <= flat.at]
+    half = s * math.sqrt((steps[-1].diameter / 2) ** 2 - (flat.across / 2) ** 2)
+    x0, x1 = left + s * flat.at, left + s * (flat.at + flat.length)
+    low, high = axis - half, axis + half
+    sheet.lines([(x0, low), (x1, low), (x1, high), (x0, high), (x0, low)])
+    for y0, y1 in ((low, high), (high, low)):
+        sheet.lines([(x0, y0), (x1, y1)], "HATCH")
 
 
 def _mouth(seat: KeySeat, part: float) -> list[Point]:

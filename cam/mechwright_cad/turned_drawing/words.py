@@ -4,7 +4,7 @@ import re
 
 from mechwright.contracts.fits import signed
 from mechwright.contracts.limits import limits
-from mechwright.contracts.turned import EndThread, Groove, KeySeat, Step, Turned, limited
+from mechwright.contracts.turned import EndThread, Flats, Groove, KeySeat, Step, Turned, limited
 from mechwright.errors import DesignError
 from mechwright.standards.keys import depth_tolerance, length_tolerance
 from mechwright_cad.sheet.words import FAIR, FINE, GENERAL, number
@@ -66,12 +66,25 @@ def of_bore(turned: Turned) -> str:
 
 
 def of_thread(thread: EndThread) -> str:
-    """The thread in an end.
+    """The thread in an end and the hole that is drilled for it, each with its depth (ISO 6410-1).
 
     >>> of_thread(EndThread("upper", 4.0, 0.7, 10.0))
-    'M4, 10 deep'
+    'M4 x 10 / ⌀3.3 x 12.1'
     """
-    return f"M{number(thread.diameter)}, {number(thread.depth)} deep"
+    drill = round(thread.diameter - thread.pitch, 2)
+    return (
+        f"M{number(thread.diameter)} x {number(thread.depth)} / ⌀{number(drill)} x {number(thread.drilled)}"
+    )
+
+
+def of_flats(flats: Flats) -> str:
+    """Width across, length and place of flats for a spanner.
+
+    >>> of_flats(Flats(17.0, 6.0, 10.0))
+    'Two flats 10 (0/-0.2) across, 6 long, 17 from the lower end'
+    """
+    wide = limited(flats.across, -0.2, 0.0)
+    return f"Two flats {wide} across, {number(flats.length)} long, {number(flats.at)} from the lower end"
 
 
 def notes(turned: Turned) -> list[str]:
@@ -84,4 +97,5 @@ def notes(turned: Turned) -> list[str]:
         found.append("Run-out of fitted diameters to each other 0.02")
     if turned.length > SLENDER * turned.greatest and turned.bore == 0:
         found.append("Centre holes ISO 6411 may stay")
+    found += map(of_flats, turned.flats)
     return [*found, turned.note] if turned.note else found

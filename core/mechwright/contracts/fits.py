@@ -15,6 +15,10 @@ HoleClass = Literal["F7", "H7", "N7", "P7"]
 pressed."""
 
 
+ROLLING = "h9"
+"""Class of the outside of a roller that runs on a wall: that of drawn bar, whose face it keeps."""
+
+
 @dataclass(frozen=True)
 class Fit:
     """Limits of a hole or a shaft: basic size, tolerance class, and limit deviations; mm.

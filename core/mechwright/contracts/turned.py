@@ -9,6 +9,8 @@ groove
 key seat
     A slot along the axis with a flat floor, on the side of +x. It is milled by a cutter of its own width, so
     its ends are half circles; where it reaches the end of the part it is open there.
+flats
+    Two parallel faces on the outside, on the sides of +x and -x, which a spanner holds.
 length
     From one edge of the part to another, with limits of its own. It decides a stack, so it is measured from
     the face that bears: the loaded wall of a circlip's groove, the shoulder of a bearing.
@@ -20,7 +22,7 @@ from functools import cached_property
 from typing import Literal
 
 from mechwright.contracts.fits import Fit, signed
-from mechwright.contracts.shape import Revolve, Shape, Slot, ring, slot
+from mechwright.contracts.shape import Prism, Revolve, Shape, Slot, ring, slot
 from mechwright.errors import GeometryError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
@@ -121,6 +123,25 @@ def limited(nominal: float, lower: float, upper: float) -> str:
     return f"{shown} ({signed(upper)}/{signed(lower)})"
 
 
+@dataclass(frozen=True)
+class Flats:
+    """Two parallel flats for a spanner from ``at`` upwards, mm: their length, and the width across them."""
+
+    at: float
+    length: float
+    across: float
+
+    def pieces(self, wide: float) -> tuple[Prism, Prism]:
+        """What the cutter takes on either side of a part of that diameter, mm."""
+        half, out = self.across / 2, wide
+        low, high = self.at, self.at + self.length
+
+        def box(x0: float, x1: float) -> Prism:
+            return Prism(((x0, -out), (x1, -out), (x1, out), (x0, out)), low, high)
+
+        return box(half, out), box(-out, -half)
+
+
 TAP_RUN = 3.0
 """A drilled hole goes on so many pitches below its last full turn of thread: the tap's own lead."""
 
@@ -174,6 +195,8 @@ class Turned:
         In its ends; of a part without a bore.
     lengths
         Lengths with limits of their own, each from edge to edge; all others have the general tolerance.
+    flats
+        For spanners, each across one step.
 
     Raises
     ------
@@ -198,6 +221,7 @@ class Turned:
     threads: tuple[EndThread, ...] = ()
     tapped: bool = False
     lengths: tuple[Length, ...] = ()
+    flats: tuple[Flats, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.steps or not all(step.diameter > 0 and step.length > 0 for step in self.steps):
@@ -236,6 +260,13 @@ class Turned:
                     f"a key seat {seat.width:g} mm wide with its floor at {seat.floor:g} mm cuts nothing, or "
                     f"the bore; the part has a radius of {self.greatest / 2:g} mm"
                 )
+        for flat in self.flats:
+            step = self._step_of(flat)
+            if not self.bore < flat.across < step.least:
+                raise GeometryError(
+                    f"flats of {flat.across:g} mm across at {flat.at:g} mm; it has to be between the bore, "
+                    f"{self.bore:g} mm, and their step, {step.least:g} mm"
+                )
         self._check_lengths()
 
     def _check_lengths(self) -> None:
@@ -266,12 +297,13 @@ class Turned:
                     f"M{thread.diameter:g} leaves less than one pitch of wall in an end of {step.least:g} mm"
                 )
 
-    def _step_of(self, groove: Groove) -> Step:
-        end = groove.at + groove.width
+    def _step_of(self, cut: Groove | Flats) -> Step:
+        name, wide = ("a groove", cut.width) if isinstance(cut, Groove) else ("flats", cut.length)
+        end = cut.at + wide
         for low, step in zip(self.starts, self.steps, strict=True):
-            if low <= groove.at < end <= low + step.length + TOLERANCES.closure:
+            if low <= cut.at < end <= low + step.length + TOLERANCES.closure:
                 return step
-        raise GeometryError(f"a groove from {groove.at:g} to {end:g} mm lies in no one step")
+        raise GeometryError(f"{name} from {cut.at:g} to {end:g} mm lies in no one step")
 
     @cached_property
     def starts(self) -> tuple[float, ...]:
@@ -312,6 +344,7 @@ class Turned:
             grooves=tuple(replace(one, at=one.at + more) for one in self.grooves),
             seats=tuple(replace(one, at=one.at + more) for one in self.seats),
             lengths=tuple(replace(one, low=one.low + more, high=one.high + more) for one in self.lengths),
+            flats=tuple(replace(one, at=one.at + more) for one in self.flats),
         )
 
     @property
@@ -362,6 +395,7 @@ class Turned:
             (
                 *(one.piece(wide, self.length) for one in self.seats),
                 *(thread.hole(self.length, screwed=screwed) for thread in self.threads),
+                *(piece for one in self.flats for piece in one.pieces(wide)),
             ),
         )
 

@@ -31,6 +31,7 @@ from mechwright import (
     circle,
     kept,
 )
+from mechwright.contracts.fits import ROLLING, shaft_fit
 from mechwright.geometry.strip import strip
 from mechwright.mechanics.linkage.outlines import Boss, hull_link, rectangle
 from mechwright.mechanics.openings import opening_of
@@ -207,7 +208,7 @@ def slot_of(m: Mechanism) -> Loop:
 
 def _rollers(m: Mechanism) -> list[Part]:
     wide, stud = 2 * m.roller, m.given.axial_gap + m.given.follower_thickness
-    steps = (Step(wide, m.given.thickness), Step(m.given.pin_diameter, stud))
+    steps = (Step(wide, m.given.thickness, shaft_fit(wide, ROLLING)), Step(m.given.pin_diameter, stud))
     found = [_roller(m, ROLLERS[0], steps, 0.0)]
     if m.given.conjugate:
         found.append(_roller(m, ROLLERS[1], steps[::-1], follower_foot(m)))

@@ -106,11 +106,13 @@ class Weights:
     @property
     def bodies(self) -> dict[str, Callable[[], Any]]:
         """Bodies with what is fixed in them."""
-        thin, gear = (lambda: self._tube(self.params.thickness)), (lambda: self._tube(self.width))
+        thin, gap = (lambda: self._tube(self.params.thickness)), self.params.washer
+        long = lambda: self._tube(self.params.thickness + gap)  # noqa: E731 - as its neighbours
+        gear = lambda: self._tube(self.width + gap)  # noqa: E731
         members: dict[str, tuple[Callable[[], Any], ...]] = {
             "crank": self._all("crank", "pinion", "shaft-a0", "pin-a"),
-            "coupler": (*self._all("coupler"), thin, thin),
-            "rocker": (*self._all("rocker", "pin-c"), thin),
+            "coupler": (*self._all("coupler"), thin, long),
+            "rocker": (*self._all("rocker", "pin-c"), long),
             "arm": self._all("arm", "wheel", "shaft-b0", "pin-b1"),
         }
         if self.params.idler_teeth:
@@ -212,11 +214,15 @@ class Weights:
 
     @cached_property
     def bushings(self) -> list[tuple[Any, int]]:
-        """Lengths of the bushings of ground, links and idler, and how many there are."""
+        """Lengths of the bushings and how many there are: of ground, B1 and C, A, idler.
+
+        They reach to the next plate, but for that of A: between it and the crank is the rocker's layer.
+        """
         params = self.params
-        found = [(params.ground_thickness, 2), (params.thickness, 3)]
+        gap = params.washer
+        found = [(params.ground_thickness + gap, 2), (params.thickness + gap, 2), (params.thickness, 1)]
         if params.idler_teeth:
-            found.append((self.width, 1))
+            found.append((self.width + gap, 1))
         return found if np.any(np.asarray(params.bushing_wall) > 0) else []
 
     def bushing(self, wanted: int) -> tuple[Any, Any]:

@@ -3,11 +3,12 @@
 The scales of the coupler's slots: angles of crank and rocker from X in the pose of setting.
 """
 
+import cmath
 import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from mechwright import Colour, Engraving, Instance, Part, Step, Turned
+from mechwright import Colour, Engraving, FittingMark, Instance, Part, Step, Turned
 from mechwright.contracts.holes import threaded
 from mechwright.contracts.part import Bore
 from mechwright.mechanics.gearing import gear_measures
@@ -16,7 +17,7 @@ from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.linkage.scale import scale
 from mechwright.mechanics.linkage.turned import SHAFT, STEEL
 from mechwright.standards.screws import washer
-from mechwright_five_bar.kinematics.phases import pose_angles, settings_of
+from mechwright_five_bar.kinematics.phases import pose, pose_angles, settings_of
 from mechwright_five_bar.kinematics.train import gear_teeth
 from mechwright_five_bar.parameters import FiveBarParams
 from mechwright_five_bar.parts.frames import fixed_frames
@@ -74,6 +75,29 @@ def parts_of(m: FiveBarTable) -> tuple[Part, ...]:
     )
 
 
+def phase_mark(params: FiveBarParams, *, clamped: bool) -> FittingMark:
+    """How crank and arm stand to each other as the wheel is fastened: any tooth fits, one angle is right."""
+    crank, arm = set_angles(params)
+    how = (
+        "Before these are tight, turn the wheel on its shaft until this is so; its threads have to show "
+        "through the slots of the clamp, else put it on some teeth further."
+        if clamped
+        else "The wheel goes on, and its compound cures, as this is so."
+    )
+    return FittingMark(
+        f"The crank stands at {crank:.1f}° and the arm at {arm:.1f}°, both counter-clockwise from the line "
+        f"from A0 to B0, seen from above. {how}"
+    )
+
+
+def set_angles(params: FiveBarParams) -> tuple[float, float]:
+    """Angles of crank and arm from the line A0 B0 in the pose of setting, degrees from 0 to 360."""
+    crank, _ = pose_angles(params)
+    b1, _ = pose(params)
+    arm = math.degrees(cmath.phase(complex(b1) - params.ground))
+    return crank % 360.0, arm % 360.0
+
+
 def thickness_of(params: FiveBarParams, name: str) -> float:
     """Of a plate, mm."""
     if name == "ground":
@@ -97,6 +121,8 @@ def _plates(params: FiveBarParams, layout: Layout, hub: Hub | None) -> list[Part
             details=marks.get(name, ()),
             measures=gear_measures(gears[name]) if name in gears else (),
         )
+        if name == "wheel" and hub is None:
+            part = replace(part, marks=(phase_mark(params, clamped=False),))
         if name == "wheel" and hub is not None:
             for feature in part.features:
                 if isinstance(feature, Bore) and abs(complex(*feature.centre)) > params.pin_diameter:
@@ -161,14 +187,57 @@ def bushings_of(m: FiveBarTable) -> dict[str, tuple[str, ...]]:
     return found
 
 
+PRESSED = {
+    "shaft-a0": "crank",
+    "shaft-b0": "arm",
+    "pin-a": "crank",
+    "pin-b1": "arm",
+    "pin-c": "rocker",
+    "pin-idler": "ground",
+}
+"""Pins to the plate that each is pressed into, or hangs by, on which the others' bushings lie."""
+
+
+def standing_out(params: FiveBarParams, layout: Layout, plate: str, frame: str) -> tuple[float, float]:
+    """How far a plate's bushing stands out below and above it, mm: to the plate next to it on its pin."""
+    joint = _joint_of(plate, frame)
+    if joint is None or joints_of(params)[joint].stud:
+        return 0.0, 0.0
+    other, heights = PRESSED[joint], layout.heights
+    low, bottom = heights[plate], heights[other]
+    high, top = low + thickness_of(params, plate), bottom + thickness_of(params, other)
+    if math.isclose(low - top, params.washer, abs_tol=NEXT):
+        return params.washer, 0.0
+    if math.isclose(bottom - high, params.washer, abs_tol=NEXT):
+        return 0.0, params.washer
+    return 0.0, 0.0
+
+
+NEXT = 1e-6
+"""Plates are next to each other where the gap between them, mm, is that of all layers within this."""
+
+
+def _joint_of(plate: str, frame: str) -> str | None:
+    """The pin or shaft on which a bushing turns; None of a stud's."""
+    if plate == "coupler":
+        return "pin-c" if frame.startswith("coupler-c") else "pin-a"
+    known = {"ground": "shaft-a0", "ground-b0": "shaft-b0", "rocker": "pin-b1", "idler": "pin-idler"}
+    return known.get(frame)
+
+
 def _bushings(m: FiveBarTable) -> list[Part]:
     params, layout = m.params, m.layout
     if params.bushing_wall == 0:
         return []
     by_length: dict[float, list[Instance]] = {}
+    plain: set[float] = set()
     for plate, frames in bushings_of(m).items():
-        instances = [Instance(frame, layout.heights[plate]) for frame in frames]
-        by_length.setdefault(thickness_of(params, plate), []).extend(instances)
+        for frame in frames:
+            below, above = standing_out(params, layout, plate, frame)
+            length = round(thickness_of(params, plate) + below + above, 6)
+            by_length.setdefault(length, []).append(Instance(frame, layout.heights[plate] - below))
+            if not below + above:
+                plain.add(length)
     spare = ("bore",) if params.phases else ()  # those of other phases have no pin
     return [
         replace(
@@ -179,6 +248,7 @@ def _bushings(m: FiveBarTable) -> list[Part]:
                 length,
                 instances,
                 BUSHING_MATERIAL,
+                spaces=length not in plain,
             ),
             vacant=spare,
         )
@@ -198,7 +268,11 @@ def _clamps(m: FiveBarTable, hub: Hub | None) -> list[Part]:
     if hub is not None:
         names = [name for name in fixed_frames(m) if name.startswith("wheel-screw")]
         seats = [Instance(name, layout.heights["clamp"]) for name in names]
-        found += screw_parts("hub", hub.clamp, seats, upwards=True)
+        screws = screw_parts("hub", hub.clamp, seats, upwards=True)
+        found += [
+            replace(one, marks=(phase_mark(params, clamped=True),)) if one.name == "hub-screw" else one
+            for one in screws
+        ]
     return found
 
 

@@ -30,7 +30,7 @@ from mechwright import (
     circle,
     kept,
 )
-from mechwright.contracts.fits import shaft_fit
+from mechwright.contracts.fits import ROLLING, shaft_fit
 from mechwright.contracts.measure import between_walls
 from mechwright.geometry.keyway import Opening
 from mechwright_geneva.defaults.dimensions import mechanism_of
@@ -235,7 +235,9 @@ def _roller(m: Mechanism) -> Part:
     foot = params.thickness - params.roller_length
     stud = params.axial_gap + params.crank_thickness
     pressed = None if params.pin_fit == "none" else shaft_fit(params.pin_diameter, "h6")
-    steps = (Step(2 * m.roller, params.roller_length), Step(stud_diameter(m), stud, pressed))
+    wide = 2 * m.roller
+    running = Step(wide, params.roller_length, shaft_fit(wide, ROLLING))
+    steps = (running, Step(stud_diameter(m), stud, pressed))
     instances = tuple(Instance(roller_body(k), foot) for k in range(params.rollers))
     return Part("roller", None, 0, params.roller_material, instances, STEEL, turned=Turned(steps))
 

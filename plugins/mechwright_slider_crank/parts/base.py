@@ -21,6 +21,7 @@ from mechwright.mechanics.linkage import (
     cylinder_mass,
     rectangle,
 )
+from mechwright.mechanics.linkage.turned import LENGTH, LIMIT
 from mechwright.standards.circlips import Circlip, shaft_circlip
 from mechwright.standards.couplings import BORES, couplings
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
@@ -106,15 +107,17 @@ def shaft_stacks(table: Mechanism, length: float) -> Iterator[AxialStack]:
     ring, given = shaft_end(table).ring, table.given
     if ring is None or abs(length - 2 * given.thickness - given.gap) > given.gap:
         return
-    off = general_length(given.thickness, "medium")
+    off, thick = general_length(given.thickness, "medium"), given.thickness
+    if given.bushing > 0:
+        base = StackLength(LENGTH, -1, thick + given.gap, -LIMIT, LIMIT, part="shaft-bushing")
+    else:
+        base = StackLength("base, ISO 2768-m", -1, thick, -off, off, part="base")
     yield AxialStack(
         "float of the shaft",
         (
             StackLength.of(shaft_form(table, length).length_of(LOADED), 1, "shaft"),
-            *(
-                StackLength(f"{name}, ISO 2768-m", -1, given.thickness, -off, off, part=name)
-                for name in ("crank", "base")
-            ),
+            StackLength("crank, ISO 2768-m", -1, thick, -off, off, part="crank"),
+            base,
             StackLength("circlip", -1, ring.thickness, -ring.thinner, 0.0, True, ring.part_name),
         ),
         FLOAT[0],

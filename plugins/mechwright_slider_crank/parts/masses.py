@@ -29,7 +29,8 @@ from mechwright_slider_crank.kinematics.mechanism import Mechanism
 from mechwright_slider_crank.parts.base import shaft_masses
 from mechwright_slider_crank.parts.dimensions import CORNER, corner_of
 from mechwright_slider_crank.parts.layers import DOWELS, has_bounds, layers_of
-from mechwright_slider_crank.parts.plates import layout_of
+from mechwright_slider_crank.parts.plates import layout_of, lies_on_base
+from mechwright_slider_crank.parts.rail_screws import dowel_span
 
 
 def bodies_of(table: Mechanism) -> dict[str, Mass]:
@@ -43,8 +44,8 @@ def bodies_of(table: Mechanism) -> dict[str, Mass]:
 def _bodies(table: Mechanism) -> dict[str, Mass]:
     parts, own, crank = Weights(table), table.dimensions, table.given.crank
     bushings = [
-        cylinder_mass(own.rod_bore, table.given.thickness, BUSHING_MATERIAL, x + 0j, own.pin)
-        for x in (0.0, table.given.rod)
+        cylinder_mass(own.rod_bore, parts.bushing_length(end), BUSHING_MATERIAL, x + 0j, own.pin)
+        for end, x in (("crank", 0.0), ("slider", table.given.rod))
     ]
     return {
         "crank": together([parts.plate("crank"), *parts.shaft(), *parts.pin("crank", crank + 0j)]),
@@ -72,7 +73,9 @@ class Weights:
     def parts(self) -> dict[str, PartMass]:
         """Part to its mass; NaN where a design has none."""
         own, steel = self.own, partial(_total, self.shaft)
-        found: dict[str, tuple[Callable[[], Any], int]] = {
+        one, two = (self.bushing_length(end) for end in ("crank", "slider"))
+        alike = np.isclose(one, two)
+        found: dict[str, tuple[Callable[[], Any], Any]] = {
             **{name: (partial(self._plate, name), 1) for name in ("base", "crank", "rod", "slider")},
             "rail": (partial(self._plate, "rail"), 2),
             "shaft": (steel, 1),
@@ -80,8 +83,9 @@ class Weights:
             "wrist-pin": (partial(_total, partial(self.pin, "slider", 0j)), 1),
             "dowel": (self._dowel, DOWELS),
             "spacer": (self._spacer, DOWELS),
-            "bushing": (partial(self._tube, own.pin, own.rod_bore), 2),
-            "shaft-bushing": (partial(self._tube, own.shaft, own.base_bore), 1),
+            "bushing": (partial(self._tube, own.pin, own.rod_bore, one), 1 + np.asarray(alike)),
+            "bushing-2": (lambda: np.where(alike, np.nan, self._tube(own.pin, own.rod_bore, two)), 1),
+            "shaft-bushing": (partial(self._tube, own.shaft, own.base_bore, self._base_bushing), 1),
         }
         return {name: PartMass(value, copies) for name, (value, copies) in found.items()}
 
@@ -153,6 +157,9 @@ class Weights:
         lies = np.where(self.stand.slider == 1, self.given.gap, 0.0)
         length = self.stand.slider * self.high + self.given.thickness - lies
         length = column(np.round(length, 6), self.table.size)
+        thick = column(self.given.thickness, self.table.size)
+        spans = zip(size.ravel(), length.ravel(), thick.ravel(), strict=True)
+        length = np.array([dowel_span(*map(float, one))[1] for one in spans], dtype=float).reshape(-1, 1)
         found = KILOGRAMS * material(PIN_MATERIAL).density * circle_area(size) * length
         standards: tuple[Any, ...] = ("ISO 8734", "ISO 2338")
         sold = {float(one) for each in dowels() for name in standards for one in each.lengths(name)}
@@ -169,8 +176,18 @@ class Weights:
         ring = circle_area(2 * self.own.spacer) - circle_area(self.own.dowel)
         return np.where(layer > 1, density * ring * length, np.nan)
 
-    def _tube(self, inside: Any, outside: Any) -> Any:
-        ring = (circle_area(outside) - circle_area(inside)) * self.given.thickness
+    def bushing_length(self, end: str) -> Any:
+        """Of the rod's bushing at crank or slider, mm: it reaches to the plate next to it."""
+        near = np.abs(self.stand.rod - getattr(self.stand, end)) == 1
+        more = self.given.gap * (1 + lies_on_base(end, self.stand.slider) * (self.stand.rod > 1))
+        return self.given.thickness + np.where(near, more, 0.0)
+
+    @property
+    def _base_bushing(self) -> Any:
+        return self.given.thickness + np.where(self.stand.crank == 1, self.given.gap, 0.0)
+
+    def _tube(self, inside: Any, outside: Any, length: Any) -> Any:
+        ring = (circle_area(outside) - circle_area(inside)) * length
         brass = KILOGRAMS * material(BUSHING_MATERIAL).density
         return np.where(np.asarray(self.given.bushing) > 0, brass * ring, np.nan)
 

@@ -1,11 +1,16 @@
 """The parts of a slider-crank."""
 
-from mechwright import Colour, Instance, Part
+from dataclasses import replace
+
+from mechwright import Colour, FittingMark, Instance, Part
+from mechwright.contracts.measure import between_walls
 from mechwright.mechanics.linkage import PIN_MATERIAL, bushing_part, pin_part
 from mechwright.standards.parts import GREY, dowel_part
 from mechwright_slider_crank.kinematics.mechanism import Mechanism
 from mechwright_slider_crank.parts.base import shaft_end, shaft_form
+from mechwright_slider_crank.parts.dimensions import Dimensions
 from mechwright_slider_crank.parts.plates import layout_of
+from mechwright_slider_crank.parts.rail_screws import dowel_span
 
 COLOURS: dict[str, Colour] = {
     "base": (0.78, 0.80, 0.82),
@@ -27,8 +32,9 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
     params, layout = table.given, layout_of(table)
     sizes, heights, spans = layout.sizes, layout.stack, layout.stack.spans
     at: dict[str, tuple[Instance, ...]] = {
-        name: (Instance(name, heights.bottom(name)),) for name in ("base", "crank", "rod", "slider")
+        name: (Instance(name, heights.bottom(name)),) for name in ("base", "crank", "rod")
     }
+    at["slider"] = (Instance("slider", layout.slider_bottom),)
     under, over = heights.bottom("base") + params.thickness, heights.bottom("rail-1")
     lowest = heights.layer["rail-1"] == 1  # rails of the first layer lie on the base, others on spacers
     foot = under if lowest else over
@@ -37,6 +43,7 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
         Part(name, layout.outlines[name], params.thickness, params.material, at[name], COLOURS[name])
         for name in ("base", "rail", "crank", "rod", "slider")
     ]
+    parts[1], parts[4] = _guiding(table, sizes, parts[1]), _guided(sizes, parts[4])
     screwed = layout.rail_screws
     if screwed is not None:
         parts[1] = screwed.threaded(parts[1])
@@ -48,19 +55,54 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
         length = high - low + (params.gap if head[0] else 0.0)
         parts.append(pin_part(name, sizes.pin, length, (Instance(body, low),), *head))
     low, high = spans["dowel-1"]
-    dowels = tuple(Instance(f"dowel-{number}", low) for number in range(1, 5))
-    parts.append(dowel_part("dowel", sizes.dowel, round(high - low - (over - foot), 6), dowels))
+    start, long = dowel_span(sizes.dowel, round(high - low - (over - foot), 6), params.thickness)
+    dowels = tuple(Instance(f"dowel-{number}", low + start) for number in range(1, 5))
+    parts.append(dowel_part("dowel", sizes.dowel, long, dowels))
     if not lowest:
         spacers = tuple(Instance(f"dowel-{number}", under) for number in range(1, 5))
         parts.append(
             bushing_part("spacer", sizes.dowel, 2 * sizes.spacer, over - under, spacers, params.material)
         )
     if params.bushing > 0:
-        rod = tuple(Instance(name, heights.bottom("rod")) for name in ("rod", "rod-end"))
-        parts.append(bushing_part("bushing", sizes.pin, sizes.rod_bore, params.thickness, rod))
-        base = (Instance("base", heights.bottom("base")),)
-        parts.append(bushing_part("shaft-bushing", sizes.shaft, sizes.base_bore, params.thickness, base))
+        ends = [layout.bushing("rod", other) for other in ("crank", "slider")]
+        alike: dict[float, list[Instance]] = {}
+        for name, (low, high) in zip(("rod", "rod-end"), ends, strict=True):
+            alike.setdefault(round(high - low, 6), []).append(Instance(name, low))
+        for number, (length, those) in enumerate(alike.items(), start=1):
+            name = "bushing" if number == 1 else f"bushing-{number}"
+            spaces = length > params.thickness
+            parts.append(bushing_part(name, sizes.pin, sizes.rod_bore, length, those, spaces=spaces))
+        low, high = layout.bushing("base", "crank")
+        length = round(high - low, 6)
+        base = (Instance("base", low),)
+        parts.append(
+            bushing_part(
+                "shaft-bushing",
+                sizes.shaft,
+                sizes.base_bore,
+                length,
+                base,
+                spaces=length > params.thickness,
+            )
+        )
     return tuple(parts)
+
+
+def _guiding(table: Mechanism, sizes: Dimensions, rail: Part) -> Part:
+    """A rail with what decides how the slider runs between two of them."""
+    edge = between_walls("axes of the dowels to the guiding edge", sizes.rail / 2, 1)
+    note = (
+        "Before the screws of the rails are tight, the slider passes all along between them with a feeler "
+        f"gauge of {2 * table.given.play:g} mm beside it."
+    )
+    marks = (FittingMark(note),) if table.given.play > 0 else ()
+    return replace(rail, measures=(*rail.measures, edge), marks=marks)
+
+
+def _guided(sizes: Dimensions, slider: Part) -> Part:
+    """The slider with the width that runs between the rails."""
+    width = between_walls("width across the guiding faces", sizes.slider_width, 2)
+    return replace(slider, measures=(*slider.measures, width))
 
 
 def _shaft_parts(table: Mechanism, span: tuple[float, float]) -> list[Part]:

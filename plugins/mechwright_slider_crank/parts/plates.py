@@ -7,7 +7,7 @@ dowels into rails and base. Rod and base carry bushings.
 
 from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass, replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -71,10 +71,32 @@ class Layout:
     heads: bool
     rail_screws: RailScrews | None = None
 
+    @property
+    def slider_bottom(self) -> float:
+        """Height of the slider's underside, mm."""
+        if lies_on_base("slider", self.stack.layer["slider"]):
+            return self.stack.layers[0].bottom + self.stack.layers[0].thickness
+        return self.stack.bottom("slider")
+
+    def bushing(self, plate: str, other: str) -> tuple[float, float]:
+        """Heights of the ends of a plate's bushing, mm: it reaches to another plate in the next layer."""
+        layers, low = self.stack.layer, self.stack.bottom(plate)
+        high = low + self.stack.layers[layers[plate]].thickness
+        bottom = self.slider_bottom if other == "slider" else self.stack.bottom(other)
+        top = bottom + self.stack.layers[layers[other]].thickness
+        if abs(layers[plate] - layers[other]) != 1:
+            return low, high
+        return (top, high) if layers[plate] > layers[other] else (low, bottom)
+
     def has_head(self, pin: str) -> bool:
         """A pin has a head where the rod is on top of it: the plate it is pressed into needs none."""
         other = {"crank-pin": "crank", "wrist-pin": "slider"}[pin]
         return self.heads and self.stack.layer["rod"] > self.stack.layer[other]
+
+
+def lies_on_base(name: str, layer: Any) -> Any:
+    """Whether a plate is the slider in the first layer: it slides on the base, as its rails lie on that."""
+    return (name == "slider") & (np.asarray(layer) == 1)
 
 
 def layout_of(table: Mechanism) -> Layout:
@@ -158,7 +180,7 @@ def _screwed(
     grip = params.thickness if lowest else found.bottom("rail-1") - found.bottom("base")
     x0, _, x1, _ = outlines["rail"].bounds
     dowel = (x1 - x0 - sizes.rail) / 2
-    return rail_screws(sizes, dowel, grip, params.thickness, params.material)
+    return rail_screws(sizes, dowel, grip, params.thickness)
 
 
 def _moving(params: SliderCrankParams, outlines: Mapping[str, Outline]) -> list[Plate]:

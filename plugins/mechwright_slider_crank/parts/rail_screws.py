@@ -6,13 +6,14 @@ A design without holes for the screws of legs is a model, and its dowels are bon
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from mechwright import Instance, Outline, Part
+from mechwright import DesignError, Instance, Outline, Part
 from mechwright.contracts.holes import threaded
 from mechwright.contracts.part import Bore
 from mechwright.mechanics.linkage import PIN_MATERIAL, Boss, bushing_part
 from mechwright.mechanics.linkage.outlines import bores
+from mechwright.standards.dowels import dowel_for
 from mechwright.standards.parts import GREY
-from mechwright.standards.screws import Screw, least_engaged, lengths, screw
+from mechwright.standards.screws import Screw, lengths, screw
 from mechwright_slider_crank.parts.dimensions import Dimensions
 
 SIZES = (6.0, 5.0, 4.0, 3.0)
@@ -26,6 +27,13 @@ INWARDS = 2.0
 
 PER_RAIL = 2
 """Screws of a rail."""
+
+ENGAGED = 1.0
+"""Least length of thread in a rail, in diameters: the torque is what that bears."""
+
+BELOW = 0.5
+"""How far screws and dowels end below the face of a rail, mm, at least: a screw is ±0.35 mm long, and the rod
+passes over them."""
 
 NAMES = tuple(f"rail-screw-{number}" for number in range(1, 2 * PER_RAIL + 1))
 """Bodies of the screws."""
@@ -78,9 +86,7 @@ class RailScrews:
             yield bushing_part("rail-spacer", clear, self.screw.of.head, high, spacers, material)
 
 
-def rail_screws(
-    sizes: Dimensions, dowel: float, grip: float, thickness: float, material: str
-) -> RailScrews | None:
+def rail_screws(sizes: Dimensions, dowel: float, grip: float, thickness: float) -> RailScrews | None:
     """The screws of a rail; None where none that is sold fits.
 
     Parameters
@@ -95,11 +101,30 @@ def rail_screws(
     for size in SIZES:
         if size > SHARE * sizes.rail or place - size < sizes.dowel:
             continue
-        least, most = grip + least_engaged(material) * size, grip + thickness
+        least, most = grip + ENGAGED * size, grip + thickness - BELOW
         fitting = [one for one in lengths(size) if least <= one <= most]
         if fitting:
             return RailScrews(screw(size, fitting[-1]), (-place, place))
     return None
+
+
+def dowel_span(diameter: float, room: float, thickness: float) -> tuple[float, float]:
+    """Where a dowel of the longest length that is sold begins in a base of a thickness, and its length, mm.
+
+    ``room`` is what base, spacer and rail measure together. It ends ``BELOW`` the rail's face at least.
+
+    >>> dowel_span(3.0, 12.0, 6.0), dowel_span(3.0, 18.6, 6.0)
+    ((1.5, 10), (1.5, 16))
+    """
+    try:
+        long: float = dowel_for(diameter, room - BELOW).length
+    except DesignError:
+        long = round(room - BELOW, 6)
+    return min(round(room - BELOW - long, 6), thickness / DEEP), long
+
+
+DEEP = 4.0
+"""A dowel begins so deep in the base at most, as a share of its thickness."""
 
 
 def with_holes(outline: Outline, holes: tuple[Boss, ...]) -> Outline:

@@ -7,12 +7,20 @@ from mechwright.contracts.bought import BlindThread, Bought
 from mechwright.contracts.materials import material
 from mechwright.contracts.shape import Shape, ring
 from mechwright.contracts.surroundings import Place
-from mechwright.contracts.turned import EndThread, Length, Step, Turned
+from mechwright.contracts.turned import Length, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.fixing import Fixing, fixing, put_fixing
 from mechwright.machine.frame.kit import Kit
-from mechwright.machine.frame.pillars import EDGE, NOTE, PILLAR, PITCH, SCREW, SPARE, Column
+from mechwright.machine.frame.pillars import (
+    EDGE,
+    NOTE,
+    PILLAR,
+    SCREW,
+    Column,
+    end_threads,
+    spanner_flats,
+)
 from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Standing
 from mechwright.mechanics.strength.allowed import allowed
@@ -171,10 +179,8 @@ def add_base(
         (Step(PILLAR, under - top),),
         note=NOTE.replace("pillars", "legs"),
         lengths=(Length("height of the legs", 0.0, under - top, -LEG, LEG),),
-        threads=(
-            EndThread("lower", SCREW, PITCH, engaged + SPARE),
-            EndThread("upper", SCREW, PITCH, depth + SPARE),
-        ),
+        threads=end_threads(engaged, depth),
+        flats=spanner_flats(under - top),
     )
     holes, clear = [], through_hole(SCREW, thickness)
     for k, column in enumerate(columns, start=1):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import shapely
 
 from mechwright.contracts.surroundings import OVER, Place, turned
-from mechwright.contracts.turned import EndThread, Length, Step, Turned
+from mechwright.contracts.turned import Length, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.coupled import (
@@ -28,7 +28,7 @@ from mechwright.machine.frame.coupled import (
     motor_holes,
 )
 from mechwright.machine.frame.kit import Kit
-from mechwright.machine.frame.pillars import EDGE, PILLAR, PITCH, SCREW, SPARE, put_screw
+from mechwright.machine.frame.pillars import EDGE, PILLAR, SCREW, end_threads, put_screw, spanner_flats
 from mechwright.machine.frame.plates import Hole, add_plate
 from mechwright.machine.frame.standing import Disc, Standing
 from mechwright.standards.couplings import BORES, Coupling, coupling_for
@@ -186,14 +186,17 @@ def add_bracket(
 def _add_pillars(kit: Kit, bracket: Bracket, seat: float, under: float) -> None:
     """Between both plates, with a screw from either side; the heads of the upper ones lie on ``seat``, mm."""
     above, below = screw(SCREW, seat - under + SCREW), screw(SCREW, PLATE + SCREW)
-    threads = (
-        EndThread("lower", SCREW, PITCH, below.length - PLATE + SPARE),
-        EndThread("upper", SCREW, PITCH, above.length - (seat - under) + SPARE),
-    )
+    threads = end_threads(below.length - PLATE, above.length - (seat - under))
     height = under - bracket.top
     length = Length(BRACKET_HEIGHT, 0.0, height, -HEIGHT, HEIGHT)
     note = "all four to one length in one setting"
-    form = Turned((Step(PILLAR, height),), note=note, threads=threads, lengths=(length,))
+    form = Turned(
+        (Step(PILLAR, height),),
+        note=note,
+        threads=threads,
+        lengths=(length,),
+        flats=spanner_flats(height),
+    )
     for k, point in enumerate(bracket.corners, start=1):
         body = f"motor-pillar-{k}"
         kit.places[body] = Place((*point, 0.0))

@@ -12,7 +12,6 @@ from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.mounting import GroundPlate
 from mechwright.contracts.surroundings import Place, Surroundings
-from mechwright.contracts.turned import TAP_RUN
 from mechwright.errors import DesignError
 from mechwright.machine.frame.base import UNDER, add_base, leg_fixing, thickness_for
 from mechwright.machine.frame.coupled import (
@@ -42,12 +41,12 @@ from mechwright.machine.frame.keys import FrameKeys
 from mechwright.machine.frame.kit import Kit
 from mechwright.machine.frame.pillars import (
     EDGE,
-    PITCH,
     SCREW,
     SPARE,
     Column,
     cap_screw,
     columns,
+    least_bar,
     pillar,
     put_screw,
     stud,
@@ -106,7 +105,7 @@ def built(ground: GroundPlate, coupled: Coupled | None, keys: FrameKeys, lowest:
         depth = below
         under, lowest = coupled.face, coupled.low
     _, foot = leg_fixing(thickness_for(standing, material, keys.plates), material)
-    top = min(lowest - UNDER, under - _least(foot, depth))
+    top = min(lowest - UNDER, under - least_bar(foot, depth))
     add_base(kit, standing, list(posts), under, top, depth, material, keys.plates)
     return kit
 
@@ -141,11 +140,6 @@ def _columns(kit: Kit, ground: GroundPlate) -> tuple[tuple[Standing, Sequence[Co
     return (standing, posts), found.length - grip
 
 
-def _least(one: float, two: float) -> float:
-    """Length of a round bar with screws so deep in both ends, mm."""
-    return one + two + 2 * (SPARE + TAP_RUN * PITCH) + 1.0
-
-
 def _add_motor(
     kit: Kit,
     ground: GroundPlate,
@@ -157,7 +151,7 @@ def _add_motor(
 ) -> None:
     """Pillars, screws ``depth`` mm deep in them from above and ``below`` mm from below, the motor's plate."""
     standing, posts = where
-    height, need = ground.low - coupled.top, _least(below, depth)
+    height, need = ground.low - coupled.top, least_bar(below, depth)
     if height < need:
         said = f"pillars of {height:.1f} mm beside it have no room for threads in both ends"
         raise GroundError(longer(ground, said, need - height))

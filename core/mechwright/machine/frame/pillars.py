@@ -5,11 +5,12 @@ do: they fix how the plates stand to each other, in place of dowels, which canno
 The other two are plain. All are turned to one height in one setting.
 """
 
+import math
 from dataclasses import dataclass
 
 from mechwright.contracts.fits import shaft_fit
 from mechwright.contracts.surroundings import OVER, Place
-from mechwright.contracts.turned import TAP_RUN, EndThread, Length, Step, Turned
+from mechwright.contracts.turned import TAP_RUN, EndThread, Flats, Length, Step, Turned
 from mechwright.errors import DesignError
 from mechwright.geometry.segments import Point
 from mechwright.machine.frame.kit import Kit
@@ -29,7 +30,17 @@ SHORT = 0.2
 """By how much a spigot is shorter than its recess is deep, mm: the pillar's shoulder bears."""
 
 SPARE = 0.5
-"""By how much a thread is deeper than its screw goes, mm."""
+"""By how much the thread of a bought part is deeper than a screw goes into it, mm."""
+
+RUN_ON = 2.0
+"""So many pitches a thread that we cut goes on beyond its screw, at least: a screw is ±0.35 mm long, a plate
+±0.2 mm thick, and the screw must not meet the bottom before it clamps."""
+
+FLATS = 10.0
+"""Across the flats of pillars and legs, mm: an open spanner holds them."""
+
+FLATS_LENGTH = 6.0
+"""Of these flats, mm: as wide as a spanner of that size is thick, and some air."""
 
 EDGE = 9.0
 """From a pillar's axis to the plate's edge, mm: one and a half pillars' radii, and as much as 1.5 threads."""
@@ -50,10 +61,34 @@ def cap_screw(grip: float) -> Screw:
     return screw(SCREW, grip + SCREW)
 
 
+def thread_depth(*reaches: float) -> float:
+    """Of the threads in both ends of a bar whose screws go so deep, mm: one depth, in halves of a millimetre.
+
+    >>> thread_depth(6.0), thread_depth(5.9, 6.5)
+    (8.0, 8.5)
+    """
+    return math.ceil(round(2 * (max(reaches) + RUN_ON * PITCH), 6)) / 2
+
+
+def least_bar(*reaches: float) -> float:
+    """Length of a bar with screws so deep in both ends, mm."""
+    return 2 * (thread_depth(*reaches) + TAP_RUN * PITCH) + 1.0
+
+
+def end_threads(*reaches: float) -> tuple[EndThread, EndThread]:
+    """The threads of both ends, alike: nobody has to tell them apart."""
+    deep = thread_depth(*reaches)
+    return EndThread("lower", SCREW, PITCH, deep), EndThread("upper", SCREW, PITCH, deep)
+
+
+def spanner_flats(length: float) -> tuple[Flats, ...]:
+    """In the middle of a bar of a length, mm."""
+    return (Flats((length - FLATS_LENGTH) / 2, FLATS_LENGTH, FLATS),)
+
+
 def least_height(thickness: float) -> float:
     """Of a pillar with a screw in each end, mm."""
-    deep = cap_screw(thickness).length - thickness + SPARE
-    return 2 * (deep + TAP_RUN * PITCH) + 1.0
+    return least_bar(cap_screw(thickness).length - thickness + SPARE)
 
 
 def stud(grip: float, room: float) -> Screw:
@@ -100,12 +135,14 @@ def pillar(height: float, lower: float, upper: float, *, spigot: bool) -> Turned
     """A pillar of a height whose screws go so deep into its ends, mm."""
     more = REGISTER - SHORT if spigot else 0.0
     ends: list[Step] = [Step(SPIGOT, more, shaft_fit(SPIGOT, "h6"))] if spigot else []
-    threads = (
-        EndThread("lower", SCREW, PITCH, more + lower + SPARE),
-        EndThread("upper", SCREW, PITCH, more + upper + SPARE),
-    )
     between = Length(BETWEEN, more, more + height, -HEIGHT, HEIGHT)
-    return Turned((*ends, Step(PILLAR, height), *ends), note=NOTE, threads=threads, lengths=(between,))
+    return Turned(
+        (*ends, Step(PILLAR, height), *ends),
+        note=NOTE,
+        threads=end_threads(more + lower, more + upper),
+        lengths=(between,),
+        flats=spanner_flats(2 * more + height),
+    )
 
 
 def put_screw(kit: Kit, what: Screw, body: str, z: float) -> None:

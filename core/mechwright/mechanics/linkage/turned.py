@@ -1,9 +1,10 @@
 """Pins and bushings of linkages: turned parts, so they have a solid, a drawing, and no plate outline."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from mechwright.contracts.part import Colour, Instance, Part
-from mechwright.contracts.turned import Step, Turned, tube
+from mechwright.contracts.turned import Length, Step, Turned, tube
 from mechwright.standards.parts import GREY
 
 PIN_MATERIAL, BUSHING_MATERIAL = "steel", "brass"
@@ -14,6 +15,9 @@ HEAD, HEAD_HEIGHT = 1.6, 0.3
 
 SHAFT = 3.0
 """Length of a shaft beyond its ground plate or gear, in pin diameters: room for a coupling."""
+
+LENGTH, LIMIT = "length of the bushing, which keeps links apart", 0.05
+"""Name of that length, and its limit deviations, plus and minus, mm."""
 
 STEEL = GREY
 BRONZE: Colour = (0.76, 0.58, 0.30)
@@ -42,6 +46,11 @@ def bushing_part(
     length: float,
     instances: Sequence[Instance],
     material: str = BUSHING_MATERIAL,
+    *,
+    spaces: bool = False,
 ) -> Part:
-    """A plain bushing that stands on z = 0."""
-    return Part(name, None, 0.0, material, tuple(instances), BRONZE, turned=tube(bore, diameter, length))
+    """A plain bushing that stands on z = 0; one that ``spaces`` links has limits of its length."""
+    form = tube(bore, diameter, length)
+    if spaces:
+        form = replace(form, lengths=(Length(LENGTH, 0.0, length, -LIMIT, LIMIT),))
+    return Part(name, None, 0.0, material, tuple(instances), BRONZE, turned=form)

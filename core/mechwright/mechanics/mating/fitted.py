@@ -14,6 +14,7 @@ from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.mechanics.mating.choice import Assembled, hole_fit_of, pin_fit
 from mechwright.mechanics.mating.key_seats import with_key_seats
+from mechwright.mechanics.mating.loose_dowels import loose_dowels
 from mechwright.mechanics.mating.rounds import Match, Round
 
 Limits = dict[tuple[str, str], Fit]
@@ -34,7 +35,7 @@ def with_fits(parts: Sequence[Part], motion: Motion, fits: Fits, reverses: bool 
     _check_pairs(whole, fits)
     pins = _loosest(_pins(whole, fits))
     matches = [_with_pin(whole, match, pins) for match in whole.matches]
-    holes = _loosest([*_holes(whole, matches, fits), *_hubs(whole, fits)])
+    holes = _loosest([*_holes(whole, matches, fits), *_hubs(whole, fits), *_dowel_holes(whole, fits)])
     chosen = pins | holes | _loosest(_own(whole, matches, fits))
     return [
         _part(part, {face: fit for (name, face), fit in chosen.items() if name == part.name})
@@ -114,6 +115,16 @@ def _hubs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
         for one in faces:
             if _is_open(one) and (k, one.face) not in filled and whole.turns_on(k, one):
                 yield body.name, one.face, hole_fit(one.diameter, fits.settings.hub)
+
+
+def _dowel_holes(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
+    """Holes of dowels that no body shows: tight in the part that holds them, loose in those that come off."""
+    for one in loose_dowels(whole.bodies, 0):
+        for number, seat in enumerate(one.seats):
+            part = whole.bodies[seat.body].part
+            name = fits.settings.dowel if number else fits.settings.housing
+            if hole(part, seat.hole).fit is None:
+                yield part.name, seat.hole, hole_fit(one.diameter, name)
 
 
 def _is_open(one: Round) -> bool:

@@ -37,7 +37,7 @@ def masses_of(layout: Layout) -> dict[str, Mass]:
     held = retention_of(layout)
     if held is not None:
         found[held.pin.body] += held.masses()
-    for _, plate, link, place in bushed(layout):
-        length, bore = sizes.thickness_of(plate), size + sizes.running_fit
-        found[link].append(cylinder_mass(sizes.roller, length, BUSHING_MATERIAL, place, bore))
+    for one in bushed(layout):
+        length, bore = one.length(layout), size + sizes.running_fit
+        found[one.link].append(cylinder_mass(sizes.roller, length, BUSHING_MATERIAL, one.place, bore))
     return {link: together(some) for link, some in found.items() if link != GROUND}

@@ -1,7 +1,8 @@
 """The parts of a linkage: plates, pins, bushings, and posts between two ground plates."""
 
+import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from mechwright.contracts.details import Detail
 from mechwright.contracts.part import Colour, Instance, Part
@@ -102,15 +103,57 @@ def pin_span(layout: Layout, pin: Pin) -> tuple[float, float]:
     return low - pin.below * size, high + pin.above * size
 
 
-def bushed(layout: Layout) -> Iterator[tuple[str, str, str, complex]]:
-    """Every bushing: its frame, the plate in whose bore or slot it is, its link, and its place there, mm."""
+@dataclass(frozen=True)
+class Bushing:
+    """A bushing: its frame, the plate in whose bore or slot it is, its link, and its place there, mm.
+
+    It stands out ``below`` its plate or ``above`` it, mm, on the side of the link that the pin is pressed
+    into: links lie on bushings, and not on each other.
+    """
+
+    frame: str
+    plate: str
+    link: str
+    place: complex
+    below: float = 0.0
+    above: float = 0.0
+
+    def length(self, layout: Layout) -> float:
+        """Over all, mm."""
+        return layout.sizes.thickness_of(self.plate) + self.below + self.above
+
+
+def bushed(layout: Layout) -> Iterator[Bushing]:
+    """Every bushing."""
     if layout.sizes.bushing_wall > 0:
+        out: dict[str, tuple[float, float]] = {}
         for pin in layout.pins:
-            for plate, link in (*pin.turning, *pin.rolling):
+            for plate, link in pin.turning:
+                below, above = _standing_out(layout, pin, plate)
+                out.setdefault(link, (below, above))
                 place = roller_place(layout, pin, link)
-                yield frame_of(pin, link, place), plate, link, place
+                yield Bushing(frame_of(pin, link, place), plate, link, place, below, above)
+            for plate, link in pin.rolling:
+                place = roller_place(layout, pin, link)
+                yield Bushing(frame_of(pin, link, place), plate, link, place)
         for frame, (link, place) in layout.spares.items():
-            yield frame, link, link, place
+            yield Bushing(frame, link, link, place, *out.get(link, (0.0, 0.0)))
+
+
+def _standing_out(layout: Layout, pin: Pin, plate: str) -> tuple[float, float]:
+    """How far the bushing of a plate reaches below it and above it, mm: to the next plate of a fixed pin."""
+    if pin.clamp is not None or pin.rolling or not pin.pressed:
+        return 0.0, 0.0
+    sizes, low = layout.sizes, layout.bottom(plate)
+    high = low + sizes.thickness_of(plate)
+    fixed = min(layout.bottom(one) for one in pin.pressed)
+    others = [one for one in pin.plates if one != plate]
+    tops = [layout.bottom(one) + sizes.thickness_of(one) for one in others]
+    if fixed < low:
+        gap = min((low - top for top in tops if top <= low), default=0.0)
+        return (sizes.washer, 0.0) if math.isclose(gap, sizes.washer, abs_tol=UNDER) else (0.0, 0.0)
+    gap = min((layout.bottom(one) - high for one in others if layout.bottom(one) >= high), default=0.0)
+    return (0.0, sizes.washer) if math.isclose(gap, sizes.washer, abs_tol=UNDER) else (0.0, 0.0)
 
 
 def _plates(
@@ -168,20 +211,23 @@ def _circlip(layout: Layout, held: Retention, frame: str) -> Part:
 def _bushings(layout: Layout) -> Iterator[Part]:
     sizes = layout.sizes
     bore = sizes.pin_diameter + sizes.running_fit
-    thin: list[Instance] = []
-    thick: list[Instance] = []
+    alike: dict[tuple[bool, float], list[Instance]] = {}
     # What rolls in a slot is held by the plates over and under it, with the air of a washer.
     loose = sizes.washer if any(pin.rolling for pin in layout.pins) else 0.0
-    for frame, plate, _, _ in bushed(layout):
-        same = sizes.thickness_of(plate) == sizes.thickness
-        (thin if same else thick).append(Instance(frame, layout.bottom(plate)))
+    for one in bushed(layout):
+        ground = sizes.thickness_of(one.plate) != sizes.thickness
+        at = Instance(one.frame, layout.bottom(one.plate) - one.below)
+        alike.setdefault((ground, round(one.length(layout), 6)), []).append(at)
     spare = ("bore",) if layout.spares else ()
-    if thin:
-        ring = bushing_part("bushing", bore, sizes.roller, sizes.thickness, thin)
-        yield replace(ring, play=loose, vacant=spare)
-    if thick:
-        ground = bushing_part("bushing-ground", bore, sizes.roller, sizes.ground_thickness, thick)
-        yield replace(ground, play=loose)
+    names: dict[str, int] = {}
+    for (ground, length), places in sorted(alike.items(), key=lambda item: item[0][0]):
+        name = "bushing-ground" if ground else "bushing"
+        names[name] = names.get(name, 0) + 1
+        if names[name] > 1:
+            name = f"{name}-{names[name]}"
+        plain = sizes.ground_thickness if ground else sizes.thickness
+        ring = bushing_part(name, bore, sizes.roller, length, places, spaces=length > plain)
+        yield replace(ring, play=loose, vacant=() if ground else spare)
 
 
 def _clamps(layout: Layout) -> Iterator[Part]:

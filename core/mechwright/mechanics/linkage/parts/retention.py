@@ -14,11 +14,11 @@ from mechwright.errors import DesignError
 from mechwright.mechanics.linkage.mass import Mass, cylinder_mass
 from mechwright.mechanics.linkage.parts.layout import Layout
 from mechwright.mechanics.linkage.parts.pins import Pin
-from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, PIN_MATERIAL
+from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT, LENGTH, LIMIT, PIN_MATERIAL
 from mechwright.mechanics.planar.dynamics import GROUND
 from mechwright.standards.circlips import Circlip, shaft_circlip
 
-UNDER = 0.2
+UNDER = 0.4
 """Between the ground plate and the circlip, mm."""
 
 WALL = (0.0, 0.1)
@@ -28,7 +28,7 @@ LOADED = "upper end of the shaft to the loaded wall of the groove"
 """Name of that length."""
 
 PLAY = (0.1, 1.5)
-"""Float of the shaft that is meant, mm: the links have the air of a washer between them."""
+"""Float of the shaft that is meant, mm, as links have it between them."""
 
 
 @dataclass(frozen=True)
@@ -91,16 +91,20 @@ def stacks_of(layout: Layout) -> Iterator[AxialStack]:
     top = layout.stack.bottom(GROUND) + sizes.ground_thickness
     if abs(layout.bottom(link) - top - sizes.washer) > UNDER:
         return
-    plates = ((link, sizes.thickness_of(link)), (GROUND, sizes.ground_thickness))
+    under, size = sizes.ground_thickness, sizes.thickness_of(link)
+    off = general_length(size, "medium")
+    if sizes.bushing_wall > 0:
+        name = "bushing-ground" if under != sizes.thickness else "bushing"
+        ground = StackLength(LENGTH, -1, under + sizes.washer, -LIMIT, LIMIT, part=name)
+    else:
+        loose = general_length(under, "medium")
+        ground = StackLength(f"{GROUND}, ISO 2768-m", -1, under, -loose, loose, part=GROUND.lower())
     yield AxialStack(
         "float of the shaft",
         (
             StackLength.of(held.form.length_of(LOADED), 1, held.pin.name),
-            *(
-                StackLength(f"{name}, ISO 2768-m", -1, size, -off, off, part=name.lower())
-                for name, size in plates
-                for off in (general_length(size, "medium"),)
-            ),
+            StackLength(f"{link}, ISO 2768-m", -1, size, -off, off, part=link.lower()),
+            ground,
             StackLength("circlip", -1, ring.thickness, -ring.thinner, 0.0, True, ring.part_name),
         ),
         PLAY[0],
