@@ -177,6 +177,15 @@ def test_the_page_is_the_same_every_time_and_no_text_in_it_runs(plate):
     assert data["text"] == text.splitlines()
 
 
+def test_a_longer_program_is_not_played_and_said_so(plate, monkeypatch):
+    monkeypatch.setattr("mechwright_cam.pages.job.page.MOST_STEPS", 20)
+    found = job_data(*plate)
+    assert found["large"].startswith(f"{len(plate[0].run):,} steps, more than the 20 that a page plays")
+    assert found["steps"].keys() == steps_of(plate[0]).keys()
+    assert not any(found["steps"].values())
+    assert (found["marks"], found["text"]) == ([], [])
+
+
 @by_night
 def test_a_page_of_a_hundred_thousand_moves_is_no_larger_than_ten_megabytes(plate):
     job = plate_job()

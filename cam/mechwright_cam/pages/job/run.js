@@ -3,7 +3,7 @@ const RAPID = 0, FEED = 1, ARC = 2, MICRON = 1000, TICK = 10000, TURN = 1e7;
 
 function runOf(steps) {
   const n = steps.count, ends = unpacked(steps.end, "i4"), end = Float64Array.from(ends, (one) => one / MICRON), start = new Float64Array(3 * n);
-  start.set(end.subarray(0, Math.max(0, 3 * n - 3)), 3);
+  if (n) start.set(end.subarray(0, 3 * n - 3), 3);
   const from = unpacked(steps.from, "i4");
   unpacked(steps.jump, "u4").forEach((step, k) => { for (let j = 0; j < 3; j++) start[3 * step + j] = from[3 * k + j] / MICRON; });
   const centres = unpacked(steps.centre, "i4"), sweeps = unpacked(steps.sweep, "i4");

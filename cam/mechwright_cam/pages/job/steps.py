@@ -79,6 +79,17 @@ def texts(scene: Scene) -> list[str]:
     return [scene.text] if isinstance(scene.text, str) else list(scene.text.values())
 
 
+NO_STEPS: dict[str, Any] = {
+    "count": 0,
+    "seconds": 0,
+    "tools": [],
+    "operations": [],
+    **dict.fromkeys(("kind", "line", "end", "jump", "from", "arc", "centre", "sweep", "time"), ""),
+    **dict.fromkeys(("feed", "engaged"), ""),
+}
+"""What stands in the place of the steps of a program that is too long to be played."""
+
+
 def steps_of(scene: Scene) -> dict[str, Any]:
     """All steps of the run as a page holds them."""
     run = scene.run
