@@ -122,8 +122,12 @@ def test_the_report_is_json_and_a_page(command_line, tmp_path: Path, drawing: Pa
     assert "<svg" in text
     assert text.count('class="pass"') == len(report["checks"])
     assert "http" not in text.replace("http://www.w3.org/2000/svg", "")
-    code, _, _ = verified(command_line, tmp_path, drawing, coupler_program(), "--page", str(page))
+    job = tmp_path / "job.html"
+    more = ("--page", str(page), "--job", str(job))
+    code, _, _ = verified(command_line, tmp_path, drawing, coupler_program(), *more)
     assert code == 1
+    assert "does not cut the part" in job.read_text()
+    assert '"kind":"failed"' in job.read_text()
     assert "does not cut the part" in page.read_text()
     assert "the part comes loose" in page.read_text()
 

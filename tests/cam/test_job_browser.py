@@ -255,6 +255,22 @@ def test_without_webgl_2_there_is_the_still_stock_and_the_text(software, folder)
     page.close()
 
 
+def test_a_program_that_is_too_long_shows_its_stock_alone(software, folder, monkeypatch):
+    monkeypatch.setattr("mechwright_cam.pages.job.page.MOST_STEPS", 20)
+    (made,) = golden_operations.made("slot", "linuxcnc")
+    path = folder / "large.job.html"
+    path.write_text(job_html(made.scene, made.proof, "slot.nc"), encoding="utf-8")
+    page = software.new_page()
+    said = []
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.goto(path.as_uri())
+    assert "more than the 20 that a page plays" in page.locator("#why").inner_text()
+    assert page.locator("#still svg").is_visible()
+    assert not page.locator("#picture").is_visible()
+    assert said == []
+    page.close()
+
+
 def test_a_hundred_thousand_moves_open_and_play(software, folder):
     job = plate_job()
     scene = scene_of(LINUXCNC.write(long_program(100_000)), job)

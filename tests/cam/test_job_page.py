@@ -17,6 +17,7 @@ from mechwright_cam.pages.job.marks import marks_of
 from mechwright_cam.pages.job.page import job_data, job_html
 from mechwright_cam.pages.job.relief import NOTHING, in_runs, relief_of
 from mechwright_cam.pages.job.steps import MICRON, TICK, TURN, UPPER, end_times, places, steps_of
+from mechwright_cam.pages.job.steps import MOST as MOST_HELD
 from mechwright_cam.proof.timing import step_times
 
 MOST = 10_000_000
@@ -71,8 +72,8 @@ def test_the_page_has_the_steps_of_the_run(plate):
     arcs = unpacked(found["arc"], "u4")
     assert (arcs == np.flatnonzero(run.kind == Kind.ARC)).all()
     assert arcs.size
-    np.testing.assert_allclose(unpacked(found["sweep"], "i4") / TURN, run.sweep[arcs], atol=1e-7)
-    times = unpacked(found["time"], "u4") / TICK
+    np.testing.assert_allclose(unpacked(found["sweep"], "i4") / TURN, run.sweep[arcs], atol=1e-6)
+    times = unpacked(found["time"], "i4") / TICK
     np.testing.assert_allclose(times, end_times(scene), atol=6e-5)
     assert found["seconds"] == pytest.approx(plate[1].time_estimate_s, abs=1e-3)
     assert [name for name, *_ in found["operations"]] == [one.name for one in plate[1].operations]
@@ -175,6 +176,24 @@ def test_the_page_is_the_same_every_time_and_no_text_in_it_runs(plate):
     assert set(re.findall(r"https?://[^\s\"']*", page)) == {"http://www.w3.org/2000/svg"}
     data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.DOTALL).group(1))
     assert data["text"] == text.splitlines()
+
+
+def test_a_program_out_of_all_bounds_has_its_page(plate):
+    text = "G21 G90\nT3 M6\nS8000 M3\nG43 H3\nG0 X0 Y0 Z5\nG1 X9999 F99999999\nG4 P99999999\nG1 Z-1\nM30\n"
+    scene, proof = judged(text, plate[0].job)
+    assert not proof.ok
+    found = job_data(scene, proof)["steps"]
+    assert np.abs(unpacked(found["end"], "i4").astype(float)).max() <= MOST_HELD
+    assert found["count"] == len(scene.run)
+
+
+def test_a_longer_program_is_not_played_and_said_so(plate, monkeypatch):
+    monkeypatch.setattr("mechwright_cam.pages.job.page.MOST_STEPS", 20)
+    found = job_data(*plate)
+    assert found["large"].startswith(f"{len(plate[0].run):,} steps, more than the 20 that a page plays")
+    assert found["steps"].keys() == steps_of(plate[0]).keys()
+    assert not any(found["steps"].values())
+    assert (found["marks"], found["text"]) == ([], [])
 
 
 @by_night

@@ -187,6 +187,14 @@ def test_a_machine_in_the_plane_is_shown_in_space_where_its_motion_has_it():
     assert found["up"] == [0, 0, 1]
 
 
+def test_a_mechanism_of_too_many_triangles_is_not_drawn_and_said_so(monkeypatch):
+    monkeypatch.setattr("mechwright_cad.animation.space.LARGEST", 10)
+    found, _ = machine_scene()
+    assert found["large"] > 10
+    assert (found["forms"], found["meshes"]) == ([], [])
+    assert found["layers"], "the plan stays"
+
+
 def test_without_a_plan_plates_alone_are_in_space_as_well():
     found, _ = machine_scene(plan=False)
     assert "layers" not in found

@@ -10,7 +10,7 @@ from mechwright.contracts.motion import Motion
 from mechwright_cad.animation.figures import ANGLE, DRAWN, hexadecimal, rounded
 from mechwright_cad.bodies import Body, label_of
 from mechwright_cad.interference.path import STILL
-from mechwright_cad.viewer.forms import forms_of, is_light
+from mechwright_cad.viewer.forms import LARGEST, forms_of, is_light
 from mechwright_cad.viewer.groups import FASTENERS, groups_of
 from mechwright_cad.viewer.packed import form
 
@@ -20,6 +20,7 @@ def bodies_in_space(
 ) -> dict[str, Any]:
     """What a picture in space holds of bodies that can be had, and a sphere about all that they come to.
 
+    A mechanism of too many triangles has none of its bodies, and their number as ``large``.
     Without ``solids`` parts are left out whose form takes the CAD kernel. ``paths`` (n, 3), mm, are within
     the sphere as well. Where bodies are ``grouped``, fasteners are hidden at first.
     """
@@ -27,6 +28,7 @@ def bodies_in_space(
     parts = list({id(body.part): body.part for body in made}.values())
     number = {id(part): place for place, part in enumerate(parts)}
     meshes = forms_of(parts)
+    count = sum(len(triangles) for _, triangles in meshes)
     groups = dict(zip(map(id, bodies), groups_of(bodies, motion), strict=True))
     reach = list(paths)
     for body in made:
@@ -36,6 +38,14 @@ def bodies_in_space(
         lifted = corners + np.array((0.0, 0.0, body.instance.z))
         reach.append(body.poses.transform(lifted).reshape(-1, 3))
     sphere = ball(reach)
+    if count > LARGEST:
+        return {
+            "forms": [],
+            "meshes": [],
+            "large": count,
+            "ball": sphere,
+            "up": upwards(bodies, sphere["centre"]),
+        }
     return {
         "forms": [form(*mesh) for mesh in meshes],
         "meshes": [_mesh(body, number[id(body.part)], groups[id(body)] if grouped else "") for body in made],

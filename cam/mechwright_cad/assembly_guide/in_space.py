@@ -33,7 +33,7 @@ def assembly_scene(build: Build, plan: Plan, shifts: Shifts, masses: Mapping[str
     found = scene(parts, motion, solids=True, space=True, plan=False)
     number = {part.name: place for place, part in enumerate(parts)}
     bodies = bodies_of(parts, motion)
-    for mesh, body, k in zip(found["meshes"], bodies, range(len(bodies)), strict=True):
+    for mesh, body, k in zip(found["meshes"], bodies, range(len(bodies)), strict=not found.get("large")):
         mesh["part"] = number[body.part.name]
         mesh["shift"] = rounded(shifts[k], DRAWN)
         mesh.pop("off", None)  # screws belong to what is put together

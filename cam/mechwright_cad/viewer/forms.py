@@ -30,6 +30,9 @@ HALF = 8
 MOST = 40_000
 """Triangles of all bodies together that a computer without a graphics processor still moves fluently."""
 
+LARGEST = 300_000
+"""Triangles of different forms that a page of 4 MB holds; a mechanism with more is not drawn in space."""
+
 Mesh = tuple[Array, NDArray[np.int64]]
 """Corners (n, 3), mm, and triangles (k, 3)."""
 

@@ -3,6 +3,10 @@ const SLOW = 50, LONGEST = 500, REST = 220; // ms: a picture that takes longer i
 const DISTANCE = "#1f6fb4", TRACE = "#c4302b", MARK = [0.95, 0.55, 0.1], SOFT = "#8a929a";
 
 function spacePicture(place) {
+  if (data.large) {
+    element("p", { class: "note", text: `The mechanism has ${data.large.toLocaleString("en")} triangles, too many to be drawn here: open its STEP file.` }, place);
+    return () => {};
+  }
   const box = element("div", { class: "space" }, place), shape = data.bare ? "joints and links" : "bodies";
   const canvas = element("canvas", { tabindex: "0", role: "img", "aria-label": `The mechanism in space, its ${shape}. `
     + "Arrow keys turn the view, with Shift they move it; plus and minus change its size; 1 to 7 are the standard views, 0 fits it; Enter picks what is in the middle" }, box);

@@ -2,8 +2,12 @@
 function job() {
   const run = runOf(data.steps), cutting = cuttingOf(run, data.relief, data.tools), by = (id) => document.getElementById(id);
   const options = { stock: true, tool: true, holder: true, path: "done", fixtures: true, ghost: false, deviation: false };
-  const picture = jobPicture(by("picture"), run, cutting, options), kinds = data.kinds;
+  const picture = data.large ? null : jobPicture(by("picture"), run, cutting, options), kinds = data.kinds;
   by("still").hidden = Boolean(picture);
+  if (data.large) {
+    by("why").textContent = `The program has ${data.large}. This is the stock at its end.`;
+    for (const one of [...document.querySelectorAll("#bar, #controls, #listing, #picture, .tools")]) one.hidden = true;
+  }
   by("views").hidden = by("shown").hidden = by("save").hidden = !picture;
   let time = 0, plays = null;
   const clock = (seconds) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;

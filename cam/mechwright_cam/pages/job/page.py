@@ -11,25 +11,32 @@ from mechwright_cad.viewer.script import script_data
 from mechwright_cam.pages.job.bodies import fixtures_of, ghost_of, tools_of
 from mechwright_cam.pages.job.marks import KINDS, marks_of
 from mechwright_cam.pages.job.relief import relief_of
-from mechwright_cam.pages.job.steps import steps_of, texts
+from mechwright_cam.pages.job.steps import NO_STEPS, steps_of, texts
 from mechwright_cam.pages.setup_sheet.raster import simulated_view
 from mechwright_cam.proof.report import Proof
 from mechwright_cam.proof.scene import Scene
 
+MOST_STEPS = 300_000
+"""Steps of a program that a page plays: it has 17 MB then, and a browser takes seconds to open it."""
+
 
 def job_data(scene: Scene, proof: Proof) -> dict[str, Any]:
     """What the page shows of a program and its proof, as plain data."""
-    job = scene.job
+    job, steps = scene.job, len(scene.run)
+    large = steps > MOST_STEPS
     return {
-        "steps": steps_of(scene),
+        "large": f"{steps:,} steps, more than the {MOST_STEPS:,} that a page plays: split it"
+        if large
+        else "",
+        "steps": NO_STEPS if large else steps_of(scene),
         "relief": relief_of(scene),
         "tools": tools_of(scene),
         "fixtures": fixtures_of(scene),
         "ghost": ghost_of(scene),
-        "marks": marks_of(scene, proof),
+        "marks": [] if large else marks_of(scene, proof),
         "kinds": KINDS,
         "clearance": job.settings.clearance,
-        "text": [line for text in texts(scene) for line in text.splitlines()],
+        "text": [] if large else [line for text in texts(scene) for line in text.splitlines()],
     }
 
 

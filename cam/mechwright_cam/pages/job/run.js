@@ -1,17 +1,17 @@
 // The run: all steps of the proof, and where the tool is at a time.
-const RAPID = 0, FEED = 1, ARC = 2, MICRON = 1000, TICK = 10000, TURN = 1e7;
+const RAPID = 0, FEED = 1, ARC = 2, MICRON = 1000, TICK = 10000, TURN = 1e6;
 
 function runOf(steps) {
   const n = steps.count, ends = unpacked(steps.end, "i4"), end = Float64Array.from(ends, (one) => one / MICRON), start = new Float64Array(3 * n);
-  start.set(end.subarray(0, Math.max(0, 3 * n - 3)), 3);
+  if (n) start.set(end.subarray(0, 3 * n - 3), 3);
   const from = unpacked(steps.from, "i4");
   unpacked(steps.jump, "u4").forEach((step, k) => { for (let j = 0; j < 3; j++) start[3 * step + j] = from[3 * k + j] / MICRON; });
   const centres = unpacked(steps.centre, "i4"), sweeps = unpacked(steps.sweep, "i4");
   const arcs = new Map(Array.from(unpacked(steps.arc, "u4"), (step, k) => [step, { x: centres[2 * k] / MICRON, y: centres[2 * k + 1] / MICRON, sweep: sweeps[k] / TURN }]));
   const own = {
     count: n, start, end, arcs, seconds: steps.seconds, tools: steps.tools, operations: steps.operations,
-    kind: unpacked(steps.kind, "u1"), line: unpacked(steps.line, "u4"), time: Float64Array.from(unpacked(steps.time, "u4"), (one) => one / TICK),
-    feed: unpacked(steps.feed, "u4"), engaged: unpacked(steps.engaged, "u1"),
+    kind: unpacked(steps.kind, "u1"), line: unpacked(steps.line, "u4"), time: Float64Array.from(unpacked(steps.time, "i4"), (one) => one / TICK),
+    feed: unpacked(steps.feed, "i4"), engaged: unpacked(steps.engaged, "u1"),
   };
   own.begins = (step) => (step > 0 ? own.time[step - 1] : 0);
   // The step that runs at a time: the first that ends then or later.

@@ -17,8 +17,11 @@ MICRON = 1000
 TICK = 10_000
 """Steps of a time in a second."""
 
-TURN = 10_000_000
+TURN = 1_000_000
 """Steps of a sweep in a radian."""
+
+MOST = 2_000_000_000
+"""What a page holds of anything, in its steps: 2 km, 55 h, 318 turns."""
 
 UPPER = 50.0
 """So far above the clearance plane the machine's upper end is drawn, mm."""
@@ -79,6 +82,17 @@ def texts(scene: Scene) -> list[str]:
     return [scene.text] if isinstance(scene.text, str) else list(scene.text.values())
 
 
+NO_STEPS: dict[str, Any] = {
+    "count": 0,
+    "seconds": 0,
+    "tools": [],
+    "operations": [],
+    **dict.fromkeys(("kind", "line", "end", "jump", "from", "arc", "centre", "sweep", "time"), ""),
+    **dict.fromkeys(("feed", "engaged"), ""),
+}
+"""What stands in the place of the steps of a program that is too long to be played."""
+
+
 def steps_of(scene: Scene) -> dict[str, Any]:
     """All steps of the run as a page holds them."""
     run = scene.run
@@ -92,20 +106,25 @@ def steps_of(scene: Scene) -> dict[str, Any]:
         "seconds": round(float(times[-1]), 4) if len(run) else 0,
         "kind": packed(run.kind, "u1"),
         "line": packed(line_numbers(scene), "u4"),
-        "end": packed(end.ravel() * MICRON, "i4"),
+        "end": _held(end * MICRON),
         "jump": packed(jumps, "u4"),
-        "from": packed(start[jumps].ravel() * MICRON, "i4"),
+        "from": _held(start[jumps] * MICRON),
         "arc": packed(arcs, "u4"),
-        "centre": packed(run.centre[arcs].ravel() * MICRON, "i4"),
-        "sweep": packed(run.sweep[arcs] * TURN, "i4"),
-        "time": packed(times * TICK, "u4"),
-        "feed": packed(np.nan_to_num(run.feed), "u4"),
+        "centre": _held(run.centre[arcs] * MICRON),
+        "sweep": _held(run.sweep[arcs] * TURN),
+        "time": _held(times * TICK),
+        "feed": _held(run.feed),
         "engaged": packed(engagement(scene), "u1"),
         "tools": _changes(run.tool),
         "operations": [
             [name, first, last, int(run.tool[last - 1])] for name, first, last in operation_steps(run)
         ],
     }
+
+
+def _held(values: Array) -> str:
+    """Whole steps within ``MOST``, and 0 of what is no number."""
+    return packed(np.clip(np.nan_to_num(values), -MOST, MOST).ravel(), "i4")
 
 
 def _changes(tool: NDArray[np.int64]) -> list[list[int]]:
