@@ -18,7 +18,7 @@ from mechwright_check.words import GAP, ORDER, POINTS, ROWS, WORD, pattern
 ACTIVE = re.compile(
     r"\(\s*(debug|print|log|logopen|logappend|logclose|probe\w*|py\w*|abort)\b", re.IGNORECASE
 )
-TOP, ARC, RETRACT, ROUNDED, WIDEST = 1000.0, 0.003, 2.003, 0.003, 0.05
+TOP, ARC, RETRACT, ROUNDED, WIDEST = 1000.0, 0.0021, 2.003, 0.003, 0.05
 """Radii of an arc agree within ARC, a full retract ends within RETRACT of its place (off the switch), ends of
 travel are rounded by ROUNDED, and a control may leave the path by WIDEST."""
 MOST, FAR = 1_000_000, 20_000.0
