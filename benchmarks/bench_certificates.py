@@ -29,12 +29,14 @@ from golden_cases import CASES
 from mutants import FAULTS, mutant
 
 from mechwright.errors import ProgramError
+from mechwright_cad.exporters import DxfExporter
 from mechwright_cam.machining import Machined
 from mechwright_cam.pages.certificate.content import certificate, unchecked
 from mechwright_cam.pages.certificate.page import sealed
 from mechwright_check import RefutedError, UnknownError
 from mechwright_check.certificate import case_of, compare, load
 from mechwright_check.checks import check_all
+from mechwright_check.drawing import compare as compare_drawing
 
 Content = dict[str, Any]
 Change = Callable[[Content, np.random.Generator], None]
@@ -52,12 +54,14 @@ def sources() -> list[tuple[str, str, Machined, Content]]:
     return found
 
 
-def outcome(content: Content, text: str, *, claims: bool) -> tuple[str, str]:
-    """What the checker says, and why."""
+def outcome(content: Content, text: str, *, claims: bool, drawing: Path | None = None) -> tuple[str, str]:
+    """What the checker says, and why; with a drawing, held against that as well."""
     try:
         case = case_of(content, {content["files"][0]["name"]: text}, [])
         if claims:
             compare(case, content["moves"])
+        if drawing is not None:
+            compare_drawing(case, content["part"]["origin"], drawing)
         check_all(case)
     except RefutedError as error:
         return "refuted", str(error)
@@ -174,13 +178,16 @@ def texts(every: list[Any], each: int, seed: int, found: Counter[tuple[str, str]
 
 
 def changes(every: list[Any], each: int, seed: int, found: Counter[tuple[str, str]]) -> None:
-    """Faults of part, shop and certificate, and of its bytes."""
+    """Faults of part, shop and certificate, and of its bytes; a part is held against its drawing."""
+    drawn = Path(tempfile.mkdtemp()) / "drawing.dxf"
     for kind, change in CHANGES.items():
         rng = np.random.default_rng(zlib.crc32(f"{kind} {seed}".encode()))
         for place in rng.integers(len(every), size=each).tolist():
             content = copy.deepcopy(every[place][3])
             change(content, rng)
-            said, _ = outcome(content, every[place][2].text, claims=True)
+            drawn.write_bytes(DxfExporter("arc").part(every[place][2].job.part))
+            own = drawn if kind.startswith("part") else None
+            said, _ = outcome(content, every[place][2].text, claims=True, drawing=own)
             if said == "confirmed":
                 print(f"{every[place][:2]} {kind}", flush=True)
             found[kind.partition(":")[0], said] += 1

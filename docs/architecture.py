@@ -37,7 +37,7 @@ STYLE = (
 )
 
 
-CORE, CAD, CAM = FACADE, "mechwright_cad", "mechwright_cam"
+CORE, CAD, CAM, CHECKER = FACADE, "mechwright_cad", "mechwright_cam", "mechwright_check"
 
 Spot = tuple[str, int]
 """A room, or an arrow as ``tail>tip``, and the number of the layer in which it stands or passes."""
@@ -183,7 +183,7 @@ def draw() -> str:
     """The picture."""
     graph = imports()
     between = packages(graph)
-    families = [one for one in between if one not in {CORE, CAD, CAM}]
+    families = [one for one in between if one not in {CORE, CAD, CAM, CHECKER}]  # the last stands by itself
     cam, cam_end = block(CAM, "cam/mechwright_cam: from parts to proven programs", graph, MARGIN)
     top = cam_end + STEP
     column = (WIDTH - 3 * MARGIN) / 2

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -87,6 +88,11 @@ def case_of(found: dict[str, Any], texts: dict[str, str], notes: list[str]) -> C
     joined = all(level[0] == height > level[1] for level, height in zip(levels, heights, strict=False))
     if not joined or heights[-1] != -thickness or not 0 <= -thickness - limits["lowest"] <= 5.001:
         raise RefutedError("the levels of the certificate do not fill the thickness of its part")
+    undercut = any(
+        not shapely.is_empty(a.difference(b).buffer(-GOUGE)) for (*_, a), (*_, b) in pairwise(levels)
+    )
+    if undercut or levels[-1][2].is_empty:
+        raise RefutedError("a level of the certificate has nothing below it")
     machine = {
         **found["machine"],
         "zero": [None if z is None else z / 1000 for z in found["machine"]["zero"]],

@@ -10,7 +10,7 @@ import shapely
 
 from mechwright_check import RefutedError, UnknownError
 from mechwright_check.geometry import COARSE, SAG, Chords, Cutter, nearest, uncovered
-from mechwright_check.reading import END, FEED, FILE, KIND, LINE, OFF, RPM, START, STOPS, TOOL, TOP
+from mechwright_check.reading import END, FEED, FILE, KIND, LINE, OFF, ROUNDED, RPM, START, STOPS, TOOL, TOP
 
 GOUGE, LEFTOVER, UNEVEN, NEAR = 0.005, 0.010, 0.2, 1e-6
 """Deepest cut into the part, thickest stock on a wall or floor, least height of a rapid's end above stock."""
@@ -199,6 +199,9 @@ def rapids(case: Case) -> None:
     every, free = case.chords, set[Any]()
     places = np.flatnonzero(every.fed & (every.low < 0))
     tree = shapely.STRtree(every.only(places).lines())
+    clear, aside = case.limits.get("clearance", UNEVEN), (every.a[:, :2] != every.b[:, :2]).any(axis=1)
+    low = ~every.fed & aside & (every.low < clear - ROUNDED) & shapely.intersects(case.plate, every.lines())
+    case.bad(low, f"a rapid over the plate below Z{clear:g}", every.move)
     rising = (every.a[:, :2] == every.b[:, :2]).all(axis=1) & (every.b[:, 2] > every.a[:, 2])
     for place in np.flatnonzero(~every.fed & (every.low < UNEVEN - NEAR) & ~rising).tolist():
         number, low = int(every.tool[place]), float(every.low[place])

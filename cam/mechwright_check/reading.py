@@ -18,7 +18,7 @@ from mechwright_check.words import GAP, ORDER, POINTS, ROWS, WORD, pattern
 ACTIVE = re.compile(
     r"\(\s*(debug|print|log|logopen|logappend|logclose|probe\w*|py\w*|abort)\b", re.IGNORECASE
 )
-TOP, ARC, RETRACT, ROUNDED, WIDEST = 1000.0, 0.003, 2.003, 0.003, 0.05
+TOP, ARC, RETRACT, ROUNDED, WIDEST = 1000.0, 0.0026, 2.003, 0.003, 0.05
 """Radii of an arc agree within ARC, a full retract ends within RETRACT of its place (off the switch), ends of
 travel are rounded by ROUNDED, and a control may leave the path by WIDEST."""
 MOST, FAR = 1_000_000, 20_000.0
@@ -93,7 +93,8 @@ class Reader:
                 self.unknown("".join(word[0] for word in found) != line, f"{line!r:.60} is no block of words")
                 for word in found:
                     bare = word[1] in "XYZIJRQF" and "." not in (word[2] or "") and self.control in POINTS
-                    self.unknown(bare, f"{word[0]} without a decimal point")
+                    bare = bare or (word[1] in "PSTH" and "." in (word[2] or "") and self.control in POINTS)
+                    self.unknown(bare, f"{word[0]} without a decimal point, or with one")
                 words = [f"{w[1]}{float(w[2]):g}" if w[1] in "GM" and w[2] else w[0] for w in found]
                 words.sort(key=_order)
             if words:

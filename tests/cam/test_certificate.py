@@ -171,6 +171,7 @@ FAULTS = {
     "one tab": ("tabs", lambda c: c["hold"].update(tabs=c["hold"]["tabs"][:1]), "left on a wall"),
     "a clamp from the start": ("profile-outside", lambda c: c["hold"]["prisms"][0].update(stop=0), "into a clamp"),
     "a wide clamp": ("profile-outside", lambda c: c["hold"]["prisms"][0].update(rings=[[[-21e3, 0, 0, 0, 1], [21e3, 0, 0, 0, 1]]]), "into a clamp"),
+    "a floor upside down": ("pocket-contour", lambda c: [one.__setitem__(2, 1 - one[2]) for one in c["part"]["levels"]], "nothing below it"),
     "another line": ("tabs", lambda c: c["moves"]["line"].__setitem__(5, 3), "claims another move here"),
     "another end": ("tabs", lambda c: c["moves"]["x"].__setitem__(7, c["moves"]["x"][7] + 2), "claims another move here"),
     "another centre": ("tabs", lambda c: c["moves"]["centre"].__setitem__(2, c["moves"]["centre"][2] + 2), "claims another"),

@@ -45,9 +45,9 @@ class Certificates(Page):
 def _content(item: Machined, build: Build) -> dict[str, Any]:
     job, control = item.job, build.made(Machining).control
     drawing, sheet = job.part.name + DxfExporter.suffix, item.program.name + SHEET
-    drawn = drawings(build).get(drawing)
+    drawn = build.made_as_wanted(drawings).get(drawing)
     bound = [] if drawn is None else [("drawing", drawing, digest_of(drawn))]
-    bound.append(("setup sheet", sheet, digest_of(setup_sheets(build)[sheet])))
+    bound.append(("setup sheet", sheet, digest_of(build.made_as_wanted(setup_sheets)[sheet])))
     inputs = facts(build.design, build.host)["inputs_sha256"]
     bound += [("input", name, digest) for name, digest in inputs.items()]
     return certificate(item, control.name, control.suffix, bound)
