@@ -89,9 +89,10 @@ def test_the_sheet_tells_it_too() -> None:
     job = job_of("grbl")
     said = first_lines(job)
     assert "The ends of X and Y in machine coordinates are not known ([cam.machine], low_x, low_y)." in said
+    assert "Machine Z is taken to travel from −400.0 to 0.0 ([cam.machine], low_z is not given)." in said
     assert "Where the work stands in the machine is not known ([cam.measured], x, y, z)" in said
     assert "jog from X −40.0 to" in said
-    ends, place = {"low_x": -500.0, "low_y": -400.0}, {"x": -250.0, "y": -200.0, "z": -200.0}
+    ends, place = {"low_x": -500.0, "low_y": -400.0, "low_z": -400.0}, {"x": -250.0, "y": -200.0, "z": -200.0}
     assert "The lengths of T1, T2, T3 are not known" in first_lines(with_settings(job, ends, place, None))
     known = first_lines(with_settings(job, ends, place, 50.0))
     assert "not known" not in known

@@ -121,7 +121,7 @@ def test_elsewhere_the_machine_is_set_and_no_word_loosens_it(control: str) -> No
     for words in ("", "G61\n"):
         assert prove(text.replace("G64\n", words), job_of(control), BY_NAME[control]).ok
     said = "G64 is no code" if control == "grbl" else "P means nothing in this line"
-    looser, line = in_cut(text, "G64 P0.5")
+    looser, line = in_cut(text, "G64 P5")
     with pytest.raises(ProgramError, match=f"^line {line}: {said}"):
         _ = scene_of(control, looser).run
 

@@ -26,6 +26,9 @@ def about_ends(
         axes = " and ".join(axis.upper() for axis in machine.open_axes)
         keys = ", ".join(f"low_{axis}" for axis in machine.open_axes)
         said.append(f"The ends of {axes} in machine coordinates are not known ([cam.machine], {keys}).")
+    if machine.low_z is None:
+        low, high = (to.signed(end, 1) for end in machine.ends("z"))
+        said.append(f"Machine Z is taken to travel from {low} to {high} ([cam.machine], low_z is not given).")
     places = [axis for axis in "xyz" if getattr(measured, axis) is None]
     if places:
         said.append(
