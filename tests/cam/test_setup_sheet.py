@@ -75,7 +75,7 @@ def sheet(job, program, proof, **files):
 class Text(HTMLParser):
     """The words of a page, the tags it opens, and whether they all close."""
 
-    VOID = ("meta", "br")
+    VOID = ("meta", "br", "input")
 
     def __init__(self, page):
         super().__init__()
