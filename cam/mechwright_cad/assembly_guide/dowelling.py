@@ -22,10 +22,15 @@ class Dowelling:
 
     def sentences(self, step: Step) -> Iterator[str]:
         """One for dowels of a size, with the fits of their holes."""
-        there = {*step.onto, *step.moved}
+        moved, onto = {*step.moved}, {*step.onto}
         for number, those in self._items.items():
-            now = [one for one in those if self._parts(one) <= there and not self._parts(one) <= {*step.onto}]
-            if now and self._parts(now[0]) & {*step.moved}:
+            now = [
+                one
+                for one in those
+                for parts in (self._parts(one),)
+                if parts <= moved | onto and not parts <= onto and not parts <= moved
+            ]
+            if now:
                 yield self._sentence(number, now)
 
     @staticmethod

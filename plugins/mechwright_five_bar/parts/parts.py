@@ -230,14 +230,13 @@ def _bushings(m: FiveBarTable) -> list[Part]:
     if params.bushing_wall == 0:
         return []
     by_length: dict[float, list[Instance]] = {}
-    plain: set[float] = set()
+    out: dict[float, float] = {}
     for plate, frames in bushings_of(m).items():
         for frame in frames:
             below, above = standing_out(params, layout, plate, frame)
             length = round(thickness_of(params, plate) + below + above, 6)
             by_length.setdefault(length, []).append(Instance(frame, layout.heights[plate] - below))
-            if not below + above:
-                plain.add(length)
+            out[length] = max(below + above, out.get(length, 0.0))
     spare = ("bore",) if params.phases else ()  # those of other phases have no pin
     return [
         replace(
@@ -248,7 +247,7 @@ def _bushings(m: FiveBarTable) -> list[Part]:
                 length,
                 instances,
                 BUSHING_MATERIAL,
-                spaces=length not in plain,
+                spaces=out[length],
             ),
             vacant=spare,
         )

@@ -53,11 +53,16 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
         low, high = spans[name]
         head = sizes.head if layout.has_head(name) else (0.0, 0.0)
         length = high - low + (params.gap if head[0] else 0.0)
-        parts.append(pin_part(name, sizes.pin, length, (Instance(body, low),), *head))
+        pin = pin_part(name, sizes.pin, length, (Instance(body, low),), *head)
+        # The slider lies on the base, and its pin ends above that.
+        clear = heights.bottom("slider") - layout.slider_bottom if body == "slider" else 0.0
+        parts.append(replace(pin, play=round(clear, 6)))
     low, high = spans["dowel-1"]
     start, long = dowel_span(sizes.dowel, round(high - low - (over - foot), 6), params.thickness)
     dowels = tuple(Instance(f"dowel-{number}", low + start) for number in range(1, 5))
-    parts.append(dowel_part("dowel", sizes.dowel, long, dowels))
+    above = high - low - (over - foot) - start - long
+    ends = round(max(start, above), 6)  # it ends below the faces of base and rail
+    parts.append(replace(dowel_part("dowel", sizes.dowel, long, dowels), play=ends))
     if not lowest:
         spacers = tuple(Instance(f"dowel-{number}", under) for number in range(1, 5))
         parts.append(
@@ -70,7 +75,7 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
             alike.setdefault(round(high - low, 6), []).append(Instance(name, low))
         for number, (length, those) in enumerate(alike.items(), start=1):
             name = "bushing" if number == 1 else f"bushing-{number}"
-            spaces = length > params.thickness
+            spaces = round(length - params.thickness, 6)
             parts.append(bushing_part(name, sizes.pin, sizes.rod_bore, length, those, spaces=spaces))
         low, high = layout.bushing("base", "crank")
         length = round(high - low, 6)
@@ -82,7 +87,7 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
                 sizes.base_bore,
                 length,
                 base,
-                spaces=length > params.thickness,
+                spaces=round(length - params.thickness, 6),
             )
         )
     return tuple(parts)

@@ -47,10 +47,13 @@ def bushing_part(
     instances: Sequence[Instance],
     material: str = BUSHING_MATERIAL,
     *,
-    spaces: bool = False,
+    spaces: float = 0.0,
 ) -> Part:
-    """A plain bushing that stands on z = 0; one that ``spaces`` links has limits of its length."""
+    """A plain bushing that stands on z = 0.
+
+    ``spaces`` is how far it stands out of its plate, mm: it keeps links apart, and its length has limits.
+    """
     form = tube(bore, diameter, length)
-    if spaces:
+    if spaces > 0:
         form = replace(form, lengths=(Length(LENGTH, 0.0, length, -LIMIT, LIMIT),))
-    return Part(name, None, 0.0, material, tuple(instances), BRONZE, turned=form)
+    return Part(name, None, 0.0, material, tuple(instances), BRONZE, turned=form, play=spaces)

@@ -226,8 +226,9 @@ def _bushings(layout: Layout) -> Iterator[Part]:
         if names[name] > 1:
             name = f"{name}-{names[name]}"
         plain = sizes.ground_thickness if ground else sizes.thickness
-        ring = bushing_part(name, bore, sizes.roller, length, places, spaces=length > plain)
-        yield replace(ring, play=loose, vacant=() if ground else spare)
+        out = round(length - plain, 6)
+        ring = bushing_part(name, bore, sizes.roller, length, places, spaces=out)
+        yield replace(ring, play=max(loose, out), vacant=() if ground else spare)
 
 
 def _clamps(layout: Layout) -> Iterator[Part]:
