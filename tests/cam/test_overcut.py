@@ -84,6 +84,14 @@ def test_a_program_that_stays_out_tells_nothing(drawing: Path) -> None:
     )
 
 
+def test_lines_of_several_files_are_told_with_their_file(drawing: Path) -> None:
+    cut = f"{HEAD}G0 X-30 Y-30\nG1 Z-1 F300\nX-31\n{END}"
+    found = asked("gouge", {"a.nc": cut, "b.nc": cut}, job(drawing))
+    assert re.match(rf"a\.nc: line {LINE + 1}: cuts 1\.000 mm", found.message)
+    said = f"; a.nc: lines {LINE + 2} and {LINE + 3}, b.nc: lines {LINE + 1} to {LINE + 3} cut into it too"
+    assert found.message.endswith(said)
+
+
 # -- what is planned, and what holds -------------------------------------------------------------------------
 
 

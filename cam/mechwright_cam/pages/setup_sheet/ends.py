@@ -43,7 +43,7 @@ def about_ends(
     if said and reach is not None:
         x0, y0, x1, y1 = (to.signed(value, 1) for value in reach)
         said.append(
-            f"Before the start jog from X {x0} to {x1}, from Y {y0} to {y1}, and up to "
+            f"When zero is set, jog from X {x0} to {x1}, from Y {y0} to {y1}, and up to "
             f"Z {to.signed(job.settings.clearance, 1)} with the longest tool: no axis may come to its end."
         )
     return tuple(said)
