@@ -103,7 +103,7 @@ def test_rings_are_left_out_until_their_play_is_measured_and_hubs_are_bonded_aft
     assert "circlip-10" in said[hub]
     floats = next(n for n, one in said.items() if "measure the float of shaft-driver" in one)
     assert "only until its head rests" in said[floats], "the plate is held while its shafts are pushed"
-    assert sum(f"Leave it out at first: step {floats} measures" in one for one in steps) == 2
+    assert sum(f"back: step {floats} measures" in one for one in steps) == 2
     crank = next(one for one in steps if "Turn the crank on the locking disc" in one)
     assert "retaining compound" in crank
     fastens = next(one for one in steps if "shift the motor" in one)

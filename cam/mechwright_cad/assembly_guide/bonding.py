@@ -25,7 +25,7 @@ class Bonding:
         seats = plan.order.seats
         self._bonded = [one for one in seats.matches if seats.kind(one) == "bonded"]
 
-    def held(self, match: Match) -> str:
+    def compound(self, match: Match) -> str:
         """What keeps a pin in a hole that it slides in; empty where something else does."""
         if self.plan.order.seats.kind(match) != "bonded":
             return ""

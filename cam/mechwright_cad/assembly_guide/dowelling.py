@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 from mechwright.contracts.fits import hole_fit, shaft_fit
 from mechwright.contracts.holes import hole
-from mechwright.mechanics.mating.loose_dowels import LooseDowel
+from mechwright.mechanics.mating.undrawn_dowels import UndrawnDowel
 from mechwright_cad.assembly_order.levels import Step
 from mechwright_cad.assembly_order.plan import Plan
 from mechwright_cad.bill.supplies import dowel_items
@@ -34,10 +34,10 @@ class Dowelling:
                 yield self._sentence(number, now)
 
     @staticmethod
-    def _parts(one: LooseDowel) -> set[int]:
+    def _parts(one: UndrawnDowel) -> set[int]:
         return {seat.body for seat in one.seats}
 
-    def _sentence(self, number: int, now: list[LooseDowel]) -> str:
+    def _sentence(self, number: int, now: list[UndrawnDowel]) -> str:
         first = now[0]
         fits = [self._fit(first, k) for k in range(len(first.seats))]
         return (
@@ -46,7 +46,7 @@ class Dowelling:
             "set the parts to each other, so they go in before any compound on the shaft has cured."
         )
 
-    def _fit(self, one: LooseDowel, k: int) -> str:
+    def _fit(self, one: UndrawnDowel, k: int) -> str:
         seat = one.seats[k]
         part = self.plan.bodies[seat.body].part
         inside = hole(part, seat.hole).fit or hole_fit(one.diameter, "H7")

@@ -213,9 +213,9 @@ class Words:
             there = self._columns.there(later) if later else frozenset((*step.onto, *step.moved))
             tool = order.reach.tool(k, np.array(step.way), there)
         said = screwed(part, self.plan.joint(k), self.name, later, tool)
-        return f"{said}{self._standing_out(k, step)}"
+        return f"{said}{self._stud_end(k, step)}"
 
-    def _standing_out(self, k: int, step: Step | None) -> str:
+    def _stud_end(self, k: int, step: Step | None) -> str:
         """How far a stud stands out of what it is screwed into in a step."""
         there = {*step.onto} if step is not None else set()
         found = [one for one in self.plan.joints if one.screw == k and one.holder in there]
@@ -331,13 +331,13 @@ class Words:
             return f"{pin} goes through {hole} with room, {match.text}: it is no seat."
         if most <= 0:
             tight = f"{0.0 - most:.3f} to {-least:.3f} mm tight"
-            drop = DROP if self.plan.order.seats.may_be_loose(match) else ""
+            drop = DROP if self.plan.order.seats.may_lack_interference(match) else ""
             return f"{pin} in {hole} is a press fit, {match.text}, {tight}. {press}{drop}"
         if least < 0:
             loose = f"from {-least:.3f} mm tight to {most:.3f} mm loose: light blows, or warm {hole}"
-            return f"{pin} in {hole} is a push fit, {match.text}, {loose}.{self._bonding.held(match)}"
+            return f"{pin} in {hole} is a push fit, {match.text}, {loose}.{self._bonding.compound(match)}"
         play = f"with a play of {least:.3f} to {most:.3f} mm"
-        return f"{pin} slides in {hole}, {match.text}, {play}.{self._bonding.held(match)}"
+        return f"{pin} slides in {hole}, {match.text}, {play}.{self._bonding.compound(match)}"
 
     def _tries(self, step: Step, found: Sequence[Match]) -> Iterator[str]:
         """What has to move by hand now, as it first can."""

@@ -124,7 +124,7 @@ class Seats:
             for one in self._joints
         )
 
-    def may_be_loose(self, match: Match) -> bool:
+    def may_lack_interference(self, match: Match) -> bool:
         """Whether a press has next to no interference where both are at their loosest limits."""
         return -LEAST_TIGHT < match.play[1] <= EXACT and self.kind(match) == "pressed"
 

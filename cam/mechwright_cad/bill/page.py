@@ -58,7 +58,9 @@ class BillOfMaterials(Page):
         masses = build.made_as_wanted(Solids).masses()
         seats = plan.order.seats
         bonded = [
-            plan.bodies[match.pin].part.name for match in seats.matches if seats.kind(match) == "bonded"
+            plan.bodies[match.pin].part.name
+            for match in seats.matches
+            if seats.kind(match) == "bonded" or seats.may_lack_interference(match)
         ]
         supplies = supplies_of(
             plan.bodies, plan.joints, numbers_of(build.parts, order), bonded=bonded, sample=plan.sample

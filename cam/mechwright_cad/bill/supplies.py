@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from mechwright.contracts.bought import Bought
 from mechwright.contracts.part import Part
 from mechwright.errors import DesignError
-from mechwright.mechanics.mating.loose_dowels import LooseDowel, loose_dowels
+from mechwright.mechanics.mating.undrawn_dowels import UndrawnDowel, undrawn_dowels
 from mechwright.standards import bushes, circlips, shims
 from mechwright.standards.dowels import dowel_for
 from mechwright.standards.ordering import order_of
@@ -50,7 +50,7 @@ def supplies_of(
         Of the poses of the bodies at which dowels are looked for.
     """
     parts = {body.part.name: body.part for body in bodies}
-    loose = list(_loose_dowels(bodies, numbers, sample))
+    loose = list(_undrawn_dowels(bodies, numbers, sample))
     return [
         *loose,
         *_washers(bodies, joints, numbers),
@@ -63,15 +63,15 @@ def supplies_of(
     ]
 
 
-def dowel_items(bodies: Sequence[Body], sample: int) -> dict[int, list[LooseDowel]]:
+def dowel_items(bodies: Sequence[Body], sample: int) -> dict[int, list[UndrawnDowel]]:
     """Number of an item to the dowels of one size that are no bodies: the first supplies of a list."""
-    sizes: dict[tuple[float, float], list[LooseDowel]] = {}
-    for one in loose_dowels(bodies, sample):
+    sizes: dict[tuple[float, float], list[UndrawnDowel]] = {}
+    for one in undrawn_dowels(bodies, sample):
         sizes.setdefault((one.diameter, one.room), []).append(one)
     return dict(enumerate(sizes.values(), FIRST["supply"]))
 
 
-def _loose_dowels(bodies: Sequence[Body], numbers: Mapping[str, int], sample: int) -> Iterator[Supply]:
+def _undrawn_dowels(bodies: Sequence[Body], numbers: Mapping[str, int], sample: int) -> Iterator[Supply]:
     """Of each size: through all parts that have its hole in one line, where no pin stands."""
     for those in dowel_items(bodies, sample).values():
         items = _items(numbers, (bodies[seat.body].part.name for one in those for seat in one.seats))

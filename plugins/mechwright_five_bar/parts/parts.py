@@ -198,7 +198,7 @@ PRESSED = {
 """Pins to the plate that each is pressed into, or hangs by, on which the others' bushings lie."""
 
 
-def standing_out(params: FiveBarParams, layout: Layout, plate: str, frame: str) -> tuple[float, float]:
+def protrusion(params: FiveBarParams, layout: Layout, plate: str, frame: str) -> tuple[float, float]:
     """How far a plate's bushing stands out below and above it, mm: to the plate next to it on its pin."""
     joint = _joint_of(plate, frame)
     if joint is None or joints_of(params)[joint].stud:
@@ -233,7 +233,7 @@ def _bushings(m: FiveBarTable) -> list[Part]:
     out: dict[float, float] = {}
     for plate, frames in bushings_of(m).items():
         for frame in frames:
-            below, above = standing_out(params, layout, plate, frame)
+            below, above = protrusion(params, layout, plate, frame)
             length = round(thickness_of(params, plate) + below + above, 6)
             by_length.setdefault(length, []).append(Instance(frame, layout.heights[plate] - below))
             out[length] = max(below + above, out.get(length, 0.0))

@@ -69,9 +69,9 @@ def parts_of(table: Mechanism) -> tuple[Part, ...]:
             bushing_part("spacer", sizes.dowel, 2 * sizes.spacer, over - under, spacers, params.material)
         )
     if params.bushing > 0:
-        ends = [layout.bushing("rod", other) for other in ("crank", "slider")]
+        rods = [layout.bushing("rod", other) for other in ("crank", "slider")]
         alike: dict[float, list[Instance]] = {}
-        for name, (low, high) in zip(("rod", "rod-end"), ends, strict=True):
+        for name, (low, high) in zip(("rod", "rod-end"), rods, strict=True):
             alike.setdefault(round(high - low, 6), []).append(Instance(name, low))
         for number, (length, those) in enumerate(alike.items(), start=1):
             name = "bushing" if number == 1 else f"bushing-{number}"

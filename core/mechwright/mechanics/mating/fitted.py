@@ -14,8 +14,8 @@ from mechwright.contracts.turned import Turned
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.mechanics.mating.choice import Assembled, hole_fit_of, pin_fit
 from mechwright.mechanics.mating.key_seats import with_key_seats
-from mechwright.mechanics.mating.loose_dowels import loose_dowels
 from mechwright.mechanics.mating.rounds import Match, Round
+from mechwright.mechanics.mating.undrawn_dowels import undrawn_dowels
 
 Limits = dict[tuple[str, str], Fit]
 """Names of a part and of a face of it to the limits that it gets."""
@@ -119,7 +119,7 @@ def _hubs(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
 
 def _dowel_holes(whole: Assembled, fits: Fits) -> Iterator[tuple[str, str, Fit]]:
     """Holes of dowels that no body shows: tight in the part that holds them, loose in those that come off."""
-    for one in loose_dowels(whole.bodies, 0):
+    for one in undrawn_dowels(whole.bodies, 0):
         for number, seat in enumerate(one.seats):
             part = whole.bodies[seat.body].part
             name = fits.settings.dowel if number else fits.settings.housing

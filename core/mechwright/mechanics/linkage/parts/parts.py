@@ -129,7 +129,7 @@ def bushed(layout: Layout) -> Iterator[Bushing]:
         out: dict[str, tuple[float, float]] = {}
         for pin in layout.pins:
             for plate, link in pin.turning:
-                below, above = _standing_out(layout, pin, plate)
+                below, above = _protrusion(layout, pin, plate)
                 out.setdefault(link, (below, above))
                 place = roller_place(layout, pin, link)
                 yield Bushing(frame_of(pin, link, place), plate, link, place, below, above)
@@ -140,7 +140,7 @@ def bushed(layout: Layout) -> Iterator[Bushing]:
             yield Bushing(frame, link, link, place, *out.get(link, (0.0, 0.0)))
 
 
-def _standing_out(layout: Layout, pin: Pin, plate: str) -> tuple[float, float]:
+def _protrusion(layout: Layout, pin: Pin, plate: str) -> tuple[float, float]:
     """How far the bushing of a plate reaches below it and above it, mm: to the next plate of a fixed pin."""
     if pin.clamp is not None or pin.rolling or not pin.pressed:
         return 0.0, 0.0

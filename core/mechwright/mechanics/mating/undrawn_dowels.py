@@ -25,7 +25,7 @@ class Seat:
 
 
 @dataclass(frozen=True)
-class LooseDowel:
+class UndrawnDowel:
     """A dowel that is no body: diameter, mm, and its seats, of which the first holds it."""
 
     diameter: float
@@ -37,7 +37,7 @@ class LooseDowel:
         return round(max(one.high for one in self.seats) - min(one.low for one in self.seats), 3)
 
 
-def loose_dowels(bodies: Sequence[Placed], sample: int) -> list[LooseDowel]:
+def undrawn_dowels(bodies: Sequence[Placed], sample: int) -> list[UndrawnDowel]:
     """Through all parts that have its hole in one line; the largest part, by its plan, holds it."""
     lines: dict[tuple[int, int, float], list[Seat]] = {}
     for k, body in enumerate(bodies):
@@ -54,7 +54,7 @@ def loose_dowels(bodies: Sequence[Placed], sample: int) -> list[LooseDowel]:
                 key = (round(float(ends[0][0]) / NEAR), round(float(ends[0][1]) / NEAR), size)
                 lines.setdefault(key, []).append(Seat(k, bore.name, low, high))
     return [
-        LooseDowel(size, tuple(sorted(seats, key=lambda one: (-_plan(bodies[one.body]), one.body))))
+        UndrawnDowel(size, tuple(sorted(seats, key=lambda one: (-_plan(bodies[one.body]), one.body))))
         for (x, y, size), seats in lines.items()
         if len(seats) > 1 and not _occupied(bodies, (x * NEAR, y * NEAR), size, sample)
     ]
