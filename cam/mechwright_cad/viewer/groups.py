@@ -41,7 +41,7 @@ def is_fastener(part: Part) -> bool:
 
 
 def groups_of(bodies: Sequence[Body], motion: Motion) -> list[str]:
-    """The group of each body: of those that move as one the name of the first link, a plate or a made solid."""
+    """The group of each body, named by the first plate or made solid of those that move as one."""
     head = rigid(motion)
     name: dict[str, str] = {}
     links = [one for one in bodies if one.part.kind in {"plate", "solid"}]
