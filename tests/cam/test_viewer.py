@@ -133,8 +133,8 @@ def test_fasteners_are_a_group_and_so_is_what_moves_as_one():
         SimpleNamespace(part=part, instance=Instance(body))
         for part, body in (
             (plate("a"), "base"),
-            (plate("b"), "spindle-wheel"),
-            (plate("c"), "wheel"),
+            (bought("c", shape), "spindle-wheel"),
+            (plate("b"), "wheel"),
             (bought("screw-m5x20", shape, "ISO 4762"), "base"),
         )
     ]

@@ -41,10 +41,11 @@ def is_fastener(part: Part) -> bool:
 
 
 def groups_of(bodies: Sequence[Body], motion: Motion) -> list[str]:
-    """The group of each body: the shortest name of those that move as one."""
+    """The group of each body, named by the first plate or made solid of those that move as one."""
     head = rigid(motion)
     name: dict[str, str] = {}
-    for body in sorted(head, key=lambda one: (len(one), one)):
-        name.setdefault(head[body], body)
+    links = [one for one in bodies if one.part.kind in {"plate", "solid"}]
+    for body in (*links, *bodies):
+        name.setdefault(head[body.instance.body], body.instance.body)
     name[GROUND] = FRAME
     return [FASTENERS if is_fastener(one.part) else name[head[one.instance.body]] for one in bodies]
