@@ -56,7 +56,7 @@ def plate() -> Part:
 
 def plate_job(**changes: object) -> Job:
     tools = changes.pop("tools", TOOLS)
-    settings = {"hold": TAB, "ramp_angle": 3.0, **changes}
+    settings = {"hold": TAB, "ramp_angle": 3.0, "stock": {"margin": 9.0}, **changes}
     return make_job(plate(), CamSettings.model_validate(settings), tools)  # type: ignore[arg-type]
 
 

@@ -44,7 +44,7 @@ def test_walls_are_finished_with_chips_as_thick_as_planned() -> None:
 
 def test_moves_whose_chips_are_too_thick_are_slowed_down() -> None:
     """Roughing at twice its feed, in a channel as wide as the mill; the way down in air, and finishing, stay."""
-    of, control = job(plate(thickness=4.0), "mill-8"), host().get(Control, "linuxcnc")
+    of, control = job(plate(thickness=4.0), "mill-8", stock={"margin": 11}), host().get(Control, "linuxcnc")
     plain = plan(of)
     fast = replace(
         plain, sections=tuple(replace(s, operations=tuple(map(twice, s.operations))) for s in plain.sections)

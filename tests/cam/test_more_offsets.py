@@ -9,6 +9,7 @@ from by_control import BY_NAME, EVERY, asked, interpret, prove
 from planning_parts import bore, job, plate
 
 import mechwright
+from mechwright.contracts.finding import errors
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.machining import Machined, Machining, machine
@@ -144,7 +145,7 @@ def test_each_offset_is_one_plate(settings: dict[str, object], message: str) -> 
 def test_a_control_that_does_not_write_them_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(type(BY_NAME["linuxcnc"]), "several", False)
     build = mechwright.load("examples/nema-17-pair.toml")
-    codes = [finding.code for finding in build.made(Machining).findings]
+    codes = [finding.code for finding in errors(build.made(Machining).findings)]
     assert codes == ["cam.more-offsets"]
 
 

@@ -1,6 +1,6 @@
 (program plate, LinuxCNC)
 (part plate, aluminium, 3 mm thick)
-(stock 46.00 x 38.00 x 3 mm, from X-23.000 Y-19.000)
+(stock 56.00 x 68.00 x 3 mm, from X-28.000 Y-34.000)
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T26 H26 D 4 mm: mill-4, end mill)

@@ -1,6 +1,6 @@
 (program offsets-1-t1, Grbl 1.1)
 (part offsets, aluminium, 3 mm thick)
-(stock 62.00 x 52.00 x 3 mm, from X-31.000 Y-26.000)
+(stock 72.00 x 82.00 x 3 mm, from X-36.000 Y-41.000)
 (origin: axis of the part, Z0 on top of the stock)
 (drills go 1.80 mm below the stock: leave room under the holes)
 (file 1 of 3, load T1 spot-6, touch it off on the stock as Z0 of G54,)

@@ -1,7 +1,7 @@
 0 BEGIN PGM offsets MM
 1 ; program offsets, HEIDENHAIN TNC
 2 ; part offsets, aluminium, 3 mm thick
-3 ; stock 62.00 x 52.00 x 3 mm, from X-31.000 Y-26.000
+3 ; stock 72.00 x 82.00 x 3 mm, from X-36.000 Y-41.000
 4 ; origin: axis of the part, Z0 on top of the stock
 5 ; drills go 1.80 mm below the stock: leave room under the holes
 6 ; origin preset 1, preset 2, Z0 on top of the stock, units mm and
@@ -116,10 +116,10 @@
 109 L X-9.246 Y+19.234 Z-3.3
 110 L X-9.243 Y+19.198 F2346
 111 L X+15.154
-112 CC X+14.994 Y+9.993
-113 C X+24.2 Y+10 DR-
-114 L X+24.198 Y-10.115
-115 CC X+14.981 Y-9.989
+112 CC X+14.996 Y+9.997
+113 C X+24.197 Y+10.167 DR-
+114 L X+24.2 Y-10
+115 CC X+14.977 Y-9.986
 116 C X+21.154 Y-16.835 DR-
 117 L X+21.157 Y-16.88
 118 L Z+5 R0 FMAX

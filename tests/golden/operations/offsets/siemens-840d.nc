@@ -1,6 +1,6 @@
 ; program offsets, SINUMERIK 840D
 ; part offsets, aluminium, 3 mm thick
-; stock 62.00 x 52.00 x 3 mm, from X-31.000 Y-26.000
+; stock 72.00 x 82.00 x 3 mm, from X-36.000 Y-41.000
 ; origin: axis of the part, Z0 on top of the stock
 ; drills go 1.80 mm below the stock: leave room under the holes
 ; origin G54, G55, Z0 on top of the stock, units mm and mm/min
@@ -97,9 +97,9 @@ X-9.243 Z-3.299
 X-9.246 Y19.234 Z-3.3
 X-9.243 Y19.198 F2346
 X15.154
-G2 X24.2 Y10 I-0.16 J-9.205
-G1 X24.198 Y-10.115
-G2 X21.154 Y-16.835 I-9.217 J0.126
+G2 X24.197 Y10.167 I-0.158 J-9.201
+G1 X24.2 Y-10
+G2 X21.154 Y-16.835 I-9.223 J0.014
 G1 X21.157 Y-16.88
 G0 Z5
 X9.246 Y-19.235

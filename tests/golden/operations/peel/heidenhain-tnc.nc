@@ -1,7 +1,7 @@
 0 BEGIN PGM peel MM
 1 ; program peel, HEIDENHAIN TNC
 2 ; part peel, aluminium, 6 mm thick
-3 ; stock 66.80 x 56.80 x 6 mm, from X-33.400 Y-28.400
+3 ; stock 76.00 x 86.00 x 6 mm, from X-38.000 Y-43.000
 4 ; origin: axis of the part, Z0 on top of the stock
 5 ; origin preset 1, Z0 on top of the stock, units mm and mm/min
 6 ; T23 D 8 mm: mill-8, end mill
@@ -774,10 +774,10 @@
 772 L X-9.246 Y+19.234 Z-6.3
 773 L X-9.243 Y+19.198 F2346
 774 L X+15.154
-775 CC X+14.995 Y+9.994
-776 C X+24.2 Y+10 DR-
-777 L X+24.198 Y-10.115
-778 CC X+14.981 Y-9.989
+775 CC X+14.996 Y+9.997
+776 C X+24.197 Y+10.167 DR-
+777 L X+24.2 Y-10
+778 CC X+14.977 Y-9.986
 779 C X+21.154 Y-16.835 DR-
 780 L X+21.157 Y-16.88
 781 L Z+5 R0 FMAX
@@ -785,15 +785,15 @@
 783 L Z+1 R0 FMAX
 784 L Z-5 F3519
 785 L X+9.244 Y-19.2 Z-5.002 F1173
-786 L X-3.136 Y-19.198 Z-5.65
+786 L X-3.137 Y-19.198 Z-5.65
 787 L X+9.244 Y-19.2 Z-6.299
 788 L X+9.246 Y-19.235 Z-6.3
 789 L X+9.244 Y-19.2 F2346
 790 L X-15.155 Y-19.198
 791 CC X-14.996 Y-9.996
 792 C X-24.198 Y-10.141 DR-
-793 L Y+10.111
-794 CC X-14.985 Y+9.992
+793 L X-24.2 Y+10
+794 CC X-14.981 Y+9.989
 795 C X-21.154 Y+16.836 DR-
 796 L X-21.157 Y+16.879
 797 L Z+5 R0 FMAX

@@ -1,6 +1,6 @@
 ; program peel, SINUMERIK 840D
 ; part peel, aluminium, 6 mm thick
-; stock 66.80 x 56.80 x 6 mm, from X-33.400 Y-28.400
+; stock 76.00 x 86.00 x 6 mm, from X-38.000 Y-43.000
 ; origin: axis of the part, Z0 on top of the stock
 ; origin G54, Z0 on top of the stock, units mm and mm/min
 ; T23 D 8 mm: mill-8, end mill
@@ -399,23 +399,23 @@ X-9.243 Z-6.299
 X-9.246 Y19.234 Z-6.3
 X-9.243 Y19.198 F2346
 X15.154
-G2 X24.2 Y10 I-0.159 J-9.204
-G1 X24.198 Y-10.115
-G2 X21.154 Y-16.835 I-9.217 J0.126
+G2 X24.197 Y10.167 I-0.158 J-9.201
+G1 X24.2 Y-10
+G2 X21.154 Y-16.835 I-9.223 J0.014
 G1 X21.157 Y-16.88
 G0 Z5
 X9.246 Y-19.235
 Z1
 G1 Z-5 F3519
 X9.244 Y-19.2 Z-5.002 F1173
-X-3.136 Y-19.198 Z-5.65
+X-3.137 Y-19.198 Z-5.65
 X9.244 Y-19.2 Z-6.299
 X9.246 Y-19.235 Z-6.3
 X9.244 Y-19.2 F2346
 X-15.155 Y-19.198
 G2 X-24.198 Y-10.141 I0.159 J9.202
-G1 Y10.111
-G2 X-21.154 Y16.836 I9.213 J-0.119
+G1 X-24.2 Y10
+G2 X-21.154 Y16.836 I9.219 J-0.011
 G1 X-21.157 Y16.879
 G0 Z5
 ; operation: outside: finish

@@ -1,6 +1,6 @@
 (program profile-outside-1-t23, Grbl 1.1)
 (part profile-outside, aluminium, 4 mm thick)
-(stock 62.00 x 52.00 x 4 mm, from X-31.000 Y-26.000)
+(stock 72.00 x 82.00 x 4 mm, from X-36.000 Y-41.000)
 (origin: axis of the part, Z0 on top of the stock)
 (file 1 of 1, load T23 mill-8, touch it off on the stock as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)

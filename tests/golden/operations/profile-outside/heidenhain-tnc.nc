@@ -1,7 +1,7 @@
 0 BEGIN PGM profile-outside MM
 1 ; program profile-outside, HEIDENHAIN TNC
 2 ; part profile-outside, aluminium, 4 mm thick
-3 ; stock 62.00 x 52.00 x 4 mm, from X-31.000 Y-26.000
+3 ; stock 72.00 x 82.00 x 4 mm, from X-36.000 Y-41.000
 4 ; origin: axis of the part, Z0 on top of the stock
 5 ; origin preset 1, Z0 on top of the stock, units mm and mm/min
 6 ; T23 D 8 mm: mill-8, end mill

@@ -1,6 +1,6 @@
 (program profile-outside, Mach3)
 (part profile-outside, aluminium, 4 mm thick)
-(stock 62.00 x 52.00 x 4 mm, from X-31.000 Y-26.000)
+(stock 72.00 x 82.00 x 4 mm, from X-36.000 Y-41.000)
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 H23 D 8 mm: mill-8, end mill)

@@ -1,6 +1,6 @@
 (program tabs-ramped-1-t24, Grbl 1.1)
 (part tabs-ramped, aluminium, 4 mm thick)
-(stock 58.00 x 48.00 x 4 mm, from X-29.000 Y-24.000)
+(stock 68.00 x 78.00 x 4 mm, from X-34.000 Y-39.000)
 (origin: axis of the part, Z0 on top of the stock)
 (file 1 of 1, load T24 mill-6, touch it off on the stock as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)

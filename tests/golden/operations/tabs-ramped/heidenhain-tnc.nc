@@ -1,7 +1,7 @@
 0 BEGIN PGM tabs-ramped MM
 1 ; program tabs-ramped, HEIDENHAIN TNC
 2 ; part tabs-ramped, aluminium, 4 mm thick
-3 ; stock 58.00 x 48.00 x 4 mm, from X-29.000 Y-24.000
+3 ; stock 68.00 x 78.00 x 4 mm, from X-34.000 Y-39.000
 4 ; origin: axis of the part, Z0 on top of the stock
 5 ; origin preset 1, Z0 on top of the stock, units mm and mm/min
 6 ; T24 D 6 mm: mill-6, end mill

@@ -1,6 +1,6 @@
 (program tabs-ramped, Mach3)
 (part tabs-ramped, aluminium, 4 mm thick)
-(stock 58.00 x 48.00 x 4 mm, from X-29.000 Y-24.000)
+(stock 68.00 x 78.00 x 4 mm, from X-34.000 Y-39.000)
 (origin: axis of the part, Z0 on top of the stock)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T24 H24 D 6 mm: mill-6, end mill)

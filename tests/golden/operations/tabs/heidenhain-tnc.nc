@@ -1,7 +1,7 @@
 0 BEGIN PGM tabs MM
 1 ; program tabs, HEIDENHAIN TNC
 2 ; part tabs, aluminium, 3 mm thick
-3 ; stock 62.00 x 52.00 x 3 mm, from X-31.000 Y-26.000
+3 ; stock 72.00 x 82.00 x 3 mm, from X-36.000 Y-41.000
 4 ; origin: axis of the part, Z0 on top of the stock
 5 ; origin preset 1, Z0 on top of the stock, units mm and mm/min
 6 ; T23 D 8 mm: mill-8, end mill
@@ -56,10 +56,10 @@
 54 L X-9.246 Y+19.234 Z-3.3
 55 L X-9.243 Y+19.198 F2346
 56 L X+15.154
-57 CC X+14.994 Y+9.993
-58 C X+24.2 Y+10 DR-
-59 L X+24.198 Y-10.115
-60 CC X+14.981 Y-9.989
+57 CC X+14.996 Y+9.997
+58 C X+24.197 Y+10.167 DR-
+59 L X+24.2 Y-10
+60 CC X+14.977 Y-9.986
 61 C X+21.154 Y-16.835 DR-
 62 L X+21.157 Y-16.88
 63 L Z+5 R0 FMAX
