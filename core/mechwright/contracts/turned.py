@@ -131,15 +131,11 @@ class Flats:
     length: float
     across: float
 
-    def pieces(self, wide: float) -> tuple[Prism, Prism]:
+    def pieces(self, wide: float) -> tuple[Prism, ...]:
         """What the cutter takes on either side of a part of that diameter, mm."""
-        half, out = self.across / 2, wide
-        low, high = self.at, self.at + self.length
-
-        def box(x0: float, x1: float) -> Prism:
-            return Prism(((x0, -out), (x1, -out), (x1, out), (x0, out)), low, high)
-
-        return box(half, out), box(-out, -half)
+        half, low, high = self.across / 2, self.at, self.at + self.length
+        sides = ((half, wide), (-wide, -half))
+        return tuple(Prism(((a, -wide), (b, -wide), (b, wide), (a, wide)), low, high) for a, b in sides)
 
 
 TAP_RUN = 3.0
@@ -264,8 +260,7 @@ class Turned:
             step = self._step_of(flat)
             if not self.bore < flat.across < step.least:
                 raise GeometryError(
-                    f"flats of {flat.across:g} mm across at {flat.at:g} mm; it has to be between the bore, "
-                    f"{self.bore:g} mm, and their step, {step.least:g} mm"
+                    f"flats {flat.across:g} mm across are not between bore {self.bore:g} and step {step.least:g} mm"
                 )
         self._check_lengths()
 
