@@ -33,7 +33,7 @@ from mechwright_check.reading import Reader
 
 CHECKER = Path(__file__).parents[2] / "cam" / "mechwright_check"
 MOST_LINES = 1240
-"""Lines of the checker, with docstrings and empty ones: one person reads them in an hour."""
+"""Lines of the checker, with docstrings and empty ones: so few that one person reads them."""
 PLAIN = (
     "profile-outside",
     "pocket-island",
