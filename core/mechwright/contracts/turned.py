@@ -260,7 +260,7 @@ class Turned:
             step = self._step_of(flat)
             if not self.bore < flat.across < step.least:
                 raise GeometryError(
-                    f"flats {flat.across:g} mm across are not between bore {self.bore:g} and {step.least:g} mm"
+                    f"flats {flat.across:g} mm across are no cut between {self.bore:g} and {step.least:g} mm"
                 )
         self._check_lengths()
 
