@@ -34,9 +34,9 @@ def test_built_in_tools_know_every_material_and_have_sensible_data():
     library = built_in()
     assert {tool.kind for tool in library} == set(ToolKind)
     for tool in library:
-        polished = {"aluminium", "pom", "polycarbonate"}
+        polished, metals = {"aluminium", "pom", "polycarbonate"}, {"brass", "steel"}
         some = tool.name.startswith(("alu", "single"))
-        assert set(tool.cutting) == (polished if some else set(GROUPS)), tool.name
+        assert set(tool.cutting) == (polished if some else polished | metals), tool.name
         for data in tool.cutting.values():
             assert 0.001 < data.chip_load / tool.diameter < 0.06, tool.name
             assert (8 if tool.kind in {ToolKind.REAMER, ToolKind.TAP} else 20) <= data.cutting_speed <= 300

@@ -122,7 +122,7 @@ def test_findings():
         if code == "cam.cannot-cut":
             assert [f.severity for f in found if f.code == code] == [Severity.ERROR]
     note = lay_out(plate(thickness=10), CamSettings(tools=("mill-1.6",)), LIBRARY)[1]
-    assert [f.code for f in note] == ["cam.slender"]
+    assert [f.code for f in note] == ["cam.better-process", "cam.slender"]
 
 
 @settings(max_examples=examples(1, 40), deadline=None, suppress_health_check=list(HealthCheck))

@@ -20,7 +20,7 @@ EACH = 11
 
 
 def probed() -> Job:
-    return job_of(plate(), "mill-6", probe=PROBE, machine={"retract_z": -2.0})
+    return job_of(plate(), "mill-6", probe=PROBE, machine={"retract_z": -2.0}, stock={"margin": 9.0})
 
 
 def said(text: str, job: Job, control: Control) -> str:

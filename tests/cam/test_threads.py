@@ -35,5 +35,5 @@ def test_what_is_prepared_is_a_copy_and_nothing_else_in_cam_prepares():
     assert shapely.is_prepared(own)
     assert not shapely.is_prepared(shape)
     assert shapely.equals_identical(own, shape)
-    for path in (Path(__file__).parents[2] / "cam").rglob("*.py"):
+    for path in (Path(__file__).parents[2] / "cam" / "mechwright_cam").rglob("*.py"):
         assert ("shapely.prepare(" in path.read_text(encoding="utf-8")) == (path.name == "threads.py"), path

@@ -49,7 +49,7 @@ def test_without_a_tolerance_there_is_an_exact_stop() -> None:
 
 def test_a_length_offset_without_its_number_is_told_by_its_code() -> None:
     with pytest.raises(ProgramError, match=r"^line 5: G43 without H takes what Fanuc had last; write H"):
-        interpret("%\nO1234\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG43 Z5.\n", BY_NAME["fanuc"])
+        interpret("%\nO1234\nG21 G17 G90 G94 G40 G49 G80\nT1 M6\nG0 G43 Z5.\n", BY_NAME["fanuc"])
 
 
 @pytest.mark.parametrize(("more", "line"), [("", 0), ("(a note)\n", 0), ("\n(a note)\nG0 Z9\n", 412)])

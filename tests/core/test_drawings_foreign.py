@@ -27,7 +27,7 @@ NEEDS = {
     "Inkscape": ("no $INSUNITS", MM),
     "OpenSCAD": ("no $INSUNITS", MM),
     "CorelDRAW": ("no $INSUNITS", replace(MM, join=0.5)),
-    "SolidWorks": ("layer 0 means", replace(PLAIN, layers=(("SLD-0", "ignore"), ("0", "through")))),
+    "SolidWorks": ("layer 0 has", replace(PLAIN, layers=(("SLD-0", "ignore"), ("0", "through")))),
 }
 """What is refused as it comes, for what, and how it is asked for then."""
 CHORDED = {"OpenSCAD": 25.0}

@@ -66,6 +66,8 @@ def test_a_grade_has_an_entry_of_its_own_or_that_of_its_group():
 def test_a_grade_is_cut_as_its_group_and_stainless_more_slowly():
     for tool in built_in():
         assert tool.cutting["7075"] == tool.cutting["aluminium"]
+        if "steel" not in tool.cutting:  # a cutter for aluminium
+            continue
         assert tool.cutting["C45"] == tool.cutting["steel"]
         stainless, steel = tool.cutting["1.4301"], tool.cutting["steel"]
         assert stainless.cutting_speed == pytest.approx(0.6 * steel.cutting_speed)

@@ -15,7 +15,7 @@ from mechwright.standards.couplings import INCH_BORES, coupling_for
 from mechwright.standards.dowels import dowel
 from mechwright.standards.motors import motor
 from mechwright.standards.ordering import inch_length, kinds, order_of
-from mechwright.standards.screws import ENGAGEMENT, SOFT, needs_washer, screw, screw_size, washer
+from mechwright.standards.screws import ENGAGEMENT, needs_washer, screw, screw_size, washer
 from mechwright.standards.stock import (
     CLEAN_UP,
     InchSize,
@@ -105,7 +105,7 @@ def test_a_base_plate_is_sold_and_has_a_screw_for_its_feet():
     for name in NAMES:
         found = base_stock(8.0, name)
         assert is_sold(found, name)
-        assert foot_fixing(found, name).washers >= (1 if name in SOFT else 0)
+        assert foot_fixing(found, name).washers >= int(MATERIALS[name].soft)
     assert base_stock(8.0, "aluminium") == 8
     assert base_stock(8.0, "pom") == 10, "no screw goes through 8 mm and a washer"
     with pytest.raises(DesignError, match='set plate_material = "aluminium"'):
@@ -121,6 +121,7 @@ def test_washers_lie_on_plastics_and_over_coarse_holes():
 def test_threads_engage_as_long_as_their_material_asks():
     grades = {"5754": 2.0, "5083": 2.0}
     groups = {"steel": 1.0, "brass": 1.3, "aluminium": 1.5, "pom": 2.5, "polycarbonate": 2.5}
+    groups |= {"acrylic": 2.5, "hdpe": 3.0, "plywood": 4.0, "mdf": 5.0}
     assert groups | grades == ENGAGEMENT
 
 

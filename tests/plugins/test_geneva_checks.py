@@ -105,6 +105,7 @@ ERRORS = [
     ("geneva.hub", "hub_diameter", {"hub_diameter": 14}),
     ("geneva.fixing", "fixing", {"construction": "backed", "fixing": 9}),
     ("geneva.pin", "pin_diameter", {"pin_diameter": 9.5}),
+    ("geneva.disc", "disc_thickness", {"disc_thickness": 4}),
     ("bore.size", "bore", {"bore": 0.1}),
     ("bore.keyway-width", "keyway_width", {"keyway_width": 14}),
     ("bore.keyway-width", "driver_keyway_width", {"driver_keyway_width": 3.3}),

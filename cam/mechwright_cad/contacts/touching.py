@@ -23,6 +23,7 @@ from mechwright.arrays import Array
 from mechwright.contracts.bodies import rigid
 from mechwright.contracts.motion import Motion
 from mechwright.mechanics.mating.rounds import ALIKE, CONTACT, NEAR, PARALLEL, Round, rounds_of
+from mechwright.mechanics.mating.undrawn_dowels import undrawn_dowels
 from mechwright_cad.assembly_order.groups import BodyLayers
 from mechwright_cad.assembly_order.layers import UP, Layer
 from mechwright_cad.bodies import Body, is_coupling
@@ -150,8 +151,14 @@ class Touching:
                 yield Gap("seat", name, self.bodies[pins[0][0]].name, left, play)
 
     def _vacant(self, k: int, hole: Round) -> bool:
-        """Whether a part says that a hole of its own may stay empty."""
-        return hole.face in self.bodies[k].part.vacant
+        """Whether a part says that a hole of its own may stay empty, or a dowel that is no body goes in."""
+        return hole.face in self.bodies[k].part.vacant or (k, hole.face) in self._dowelled
+
+    @cached_property
+    def _dowelled(self) -> set[tuple[int, str]]:
+        """Bodies and holes of dowels that no body shows."""
+        dowels = undrawn_dowels(self.bodies, self.sample)
+        return {(seat.body, seat.hole) for one in dowels for seat in one.seats}
 
     def _ends(self) -> Iterator[Gap]:
         """Ends of upright turned pins that stand a little out of the outermost hole that turns with them."""

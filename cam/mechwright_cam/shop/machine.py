@@ -103,7 +103,7 @@ class Machine(Parameters):
     speed_by_hand: bool = Field(
         False, description="Whether its speed is set by hand at a dial; S in a program then does nothing."
     )
-    dial: tuple[RevPerMin, ...] = Field(
+    dial: tuple[Annotated[RevPerMin, Field(gt=0, le=200000)], ...] = Field(
         (), max_length=20, description="Speeds at the marks 1, 2, 3 ... of that dial."
     )
     spindle_power: Kilowatts = Field(

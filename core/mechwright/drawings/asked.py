@@ -152,7 +152,7 @@ def sorted_out(
     told.likely |= words
     for layer, rest in open_.items():
         curves = "1 curve" if len(rest) == 1 else f"{len(rest)} curves"
-        said = f"layer {layer} has {curves} and no meaning"
+        said = f"layer {layer} has {curves}, and nothing says what it means"
         remedy = (
             f'add to [parameters.layers]: {toml_key(layer)} = "{words[layer]}"; or another meaning: '
             '"through", "bore H7", "pocket 3.5", "M5", "engrave 0.2", "chamfer 0.5", "ignore"'

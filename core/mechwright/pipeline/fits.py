@@ -25,6 +25,8 @@ class DeclaredFits(Inspection):
         from mechwright.contracts.bodies import placed
         from mechwright.mechanics.mating.choice import Assembled
 
+        if not build.parts:
+            return []
         motion = build.design.solve(2)
         return at_stage(self.stage, fit_findings(Assembled(placed(build.parts, motion), motion)))
 

@@ -149,13 +149,15 @@ class Washer:
         )
 
 
-def needs_washer(size: float, hole: float, plate: str) -> bool:
+def needs_washer(size: float, hole: float, plate: str = "") -> bool:
     """Whether the head of a screw M ``size`` lies on a washer: over a coarse hole, mm, and on soft plates.
+
+    Without a material the hole alone decides.
 
     >>> needs_washer(5, 5.5, "aluminium"), needs_washer(5, 6.0, "aluminium"), needs_washer(5, 5.5, "pom")
     (False, True, True)
     """
-    return material(plate).soft or hole >= screw_size(size).clearance("coarse")
+    return bool(plate and material(plate).soft) or hole >= screw_size(size).clearance("coarse")
 
 
 FRAME = 5.0

@@ -114,7 +114,7 @@ def dowel_span(diameter: float, room: float, thickness: float) -> tuple[float, f
     ``room`` is what base, spacer and rail measure together. It ends ``BELOW`` the rail's face at least.
 
     >>> dowel_span(3.0, 12.0, 6.0), dowel_span(3.0, 18.6, 6.0)
-    ((1.5, 10), (1.5, 16))
+    ((1.5, 10), (0.1, 18))
     """
     try:
         long: float = dowel_for(diameter, room - BELOW).length

@@ -35,7 +35,7 @@ def rings(shape: Any) -> list[list[list[float]]]:
     Examples
     --------
     >>> rings(shapely.box(0, 0, 2, 1))
-    [[[2000.0, 0.0], [2000.0, 1000.0], [0.0, 1000.0], [0.0, 0.0]]]
+    [[[0.0, 0.0], [2000.0, 0.0], [2000.0, 1000.0], [0.0, 1000.0]]]
     >>> [len(ring) for ring in rings(shapely.Point(0, 0).buffer(5, quad_segs=90))]
     [2]
     """

@@ -194,7 +194,7 @@ def foot_of(
 
 def washers_on(ground: GroundPlate) -> int:
     """How many washers lie under the head of each screw through the ground plate."""
-    return int(needs_washer(SCREW, ground.hole, ""))
+    return int(needs_washer(SCREW, ground.hole))
 
 
 def placed(ground: GroundPlate, space: Space, motion: Motion) -> list[Swept]:
