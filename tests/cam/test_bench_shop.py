@@ -179,3 +179,12 @@ def test_a_new_geneva_wheel_has_straight_slots_and_names_the_others(run) -> None
     assert 'law = "straight"' in run("new", "geneva")[1]
     assert 'law = "cycloidal"' in run("new", "geneva", "--from", "cycloidal")[1]
     assert run("new", "geneva", "--from", "table")[0] == 2
+
+
+def test_one_plate_is_not_nested(run) -> None:
+    shop(run, "--machine", "3018")
+    done = run("new", "plate", "--shop", "shop.toml", "-o", "p.toml")
+    assert done[0] == 0, done
+    assert "cam" not in tomllib.loads(Path("p.toml").read_text())
+    assert "cam.nest" not in done[1]
+    assert load(Path("p.toml"), host()).params.material == "acrylic"

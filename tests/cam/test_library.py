@@ -3,7 +3,6 @@ import re
 
 import pytest
 
-from mechwright.contracts.materials import GROUPS
 from mechwright.contracts.threads import COARSE
 from mechwright.errors import DesignError, OutputError, ToolError
 from mechwright.standards.screws import screw_size

@@ -26,7 +26,11 @@ def slim(width: float, height: float, origin: str) -> Job:
     x, y = width / 2, height / 2
     loop = Loop.polygon([(-x, -y), (x, -y), (x, y), (-x, y)])
     part = Part("link", Outline(loop), 4, "steel", machined=(Profile("outside", loop, "outside", 0, 4),))
-    return make_job(part, CamSettings.model_validate({"origin": origin, "hold": {"tabs": 2}, "stock": {"margin": 9}}), TOOL)
+    return make_job(
+        part,
+        CamSettings.model_validate({"origin": origin, "hold": {"tabs": 2}, "stock": {"margin": 9}}),
+        TOOL,
+    )
 
 
 def words(picture: str) -> list[tuple[str, shapely.Polygon]]:

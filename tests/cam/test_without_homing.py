@@ -99,6 +99,15 @@ def test_a_control_that_changes_tools_at_the_upper_end_wants_a_zero(name) -> Non
     )
 
 
+def test_marks_set_no_zero_on_grbl() -> None:
+    (found,) = (
+        one
+        for one in GRBL.check(CamSettings.model_validate({"machine": {"homing": "marks"}}))
+        if one.code == "cam.homing"
+    )
+    assert 'homing = "none"' in found.remedy
+
+
 def test_a_stop_for_the_tool_and_a_length_in_the_program_are_refused() -> None:
     stop = CamSettings.model_validate({"machine": MACHINE, "post": {"tool_change": "pause"}})
     assert "cam.homing" in {one.code for one in GRBL.check(stop)}

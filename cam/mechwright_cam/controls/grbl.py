@@ -102,6 +102,14 @@ class Grbl(Measuring, GcodeControl):
             found.append(Finding("cam.coolant", Severity.NOTE, "cam.coolant", message, remedy=remedy))
         return found
 
+    def check_zero(self, settings: CamSettings) -> Sequence[Finding]:
+        """Without switches its machine zero is where it was switched on: no mark sets it."""
+        if settings.machine.homing != "marks":
+            return super().check_zero(settings)
+        lack = f"{self.title} sets machine zero by switches ($H) alone, and not at marks"
+        remedy = 'write homing = "none": programs then go by the work offset'
+        return [Finding.error("cam.homing", "cam.machine.homing", lack, remedy=remedy)]
+
     def needs(self, settings: CamSettings) -> Sequence[str]:
         """Homing, or what stands in for it; the scale of S; senders; a build with mist."""
         machine = settings.machine

@@ -51,7 +51,7 @@ DEEPEST: dict[Kind, dict[Rigidity, float]] = {
 }
 """Deepest slot in diameters."""
 
-SLENDER: dict[Kind, tuple[float, float]] = {
+SMALL: dict[Kind, tuple[float, float]] = {
     "wood": (0.25, 0.5),
     "plastic": (0.25, 0.5),
     "soft metal": (0.15, 0.15),
@@ -126,7 +126,7 @@ def slot_depth(stuff: Material, diameter: float, chip: float, kind: Rigidity, fo
     With no force it is that of the class.
     """
     by_force = (force or SIDE_FORCE[kind]) / (stuff.force * chip ** (1 - stuff.force_exponent))
-    thin, thicker = SLENDER[stuff.kind]
+    thin, thicker = SMALL[stuff.kind]
     slender = float(np.interp(diameter, (1.0, 2.0, 3.0), (thin, thicker, 1.0)))
     return float(min(by_force, min(DEEPEST[stuff.kind][kind], slender) * diameter))
 

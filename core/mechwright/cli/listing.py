@@ -130,11 +130,12 @@ def _of_shop(
         design = design_of(changed(content, change), path, "", found)
         repair = repaired(design, found, Stage.MACHINING, progress)
     change |= repair.change or {}
-    content = changed(content, change)
-    params = family.Params.model_validate(content.get("parameters", {}))
+    params = design_of(changed(content, change), path, "", found).params
     rest = {key: value for key, value in change.items() if not key.startswith("parameters.")}
     text = template(family, family.name, found.all(Table), short=not whole, draft=params)
-    lines = [f"set {key} = {toml(value)}" for key, value in change.items()]
+    lines = [
+        f"leave out {key}" if value is None else f"set {key} = {toml(value)}" for key, value in change.items()
+    ]
     if not repair.builds:
         lines += [f"not solved yet: {finding}" for finding in repair.left]
     return rewritten(text, {**head, **rest}), lines

@@ -57,7 +57,7 @@ def started(
     sheet = fit or hand.sheet
     if sheet is not None:
         change |= _size(design(), sheet, hand.gap, host, together=fit is None)
-    if fit is None and hand.sheet is not None:
+    if fit is None and hand.sheet is not None and len(_boxes(_plates(design()))) > 1:
         change |= hand.change
     return change
 
@@ -139,13 +139,19 @@ def _nice(path: str, value: float) -> float:
 
 def _fits(plates: Sequence[Part], sheet: tuple[float, float], gap: float, *, together: bool) -> bool:
     """Whether each plate fits on a sheet, or all of them do in rows, with a gap around each."""
-    boxes = []
-    for part in plates:
-        x0, y0, x1, y1 = part.outline.polygon().bounds  # type: ignore[union-attr]
-        boxes += [(x1 - x0 + 2 * gap, y1 - y0 + 2 * gap)] * max(1, len(part.instances))
+    boxes = [(x + 2 * gap, y + 2 * gap) for x, y in _boxes(plates)]
     if not together:
         return all(_one(box, sheet) for box in boxes)
     return any(_rows(boxes, way) for way in (sheet, sheet[::-1]))
+
+
+def _boxes(plates: Sequence[Part]) -> list[tuple[float, float]]:
+    """Length and width of each copy of each plate, mm."""
+    found = []
+    for part in plates:
+        x0, y0, x1, y1 = part.outline.polygon().bounds  # type: ignore[union-attr]
+        found += [(x1 - x0, y1 - y0)] * max(1, len(part.instances))
+    return found
 
 
 def _one(box: tuple[float, float], sheet: tuple[float, float]) -> bool:
