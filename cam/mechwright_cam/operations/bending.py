@@ -12,6 +12,7 @@ import math
 from mechwright.contracts.materials import material
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.setup.job import Job
+from mechwright_cam.shop.cutting_force import HELIX
 from mechwright_cam.shop.power import WATTS, available, milling_force
 from mechwright_cam.shop.tool import Tool
 
@@ -32,8 +33,6 @@ NECK = 1.0
 """A cutter stands out of the holder this many diameters further than it cuts, if nothing is said of it."""
 NORMAL = 0.5
 """Force that pushes a mill off the wall in its tangential force: 0.3 in aluminium, up to 0.5 in steel."""
-HELIX = math.tan(math.radians(30))
-"""Slope of its flutes: the usual helix."""
 MOST_FED = 2.0
 """Walls are finished with so many times the feed of a full cut at most."""
 MOST = 0.02

@@ -124,7 +124,7 @@ def _pose(params: FiveBarParams) -> tuple[Any, Any]:
     if np.ndim(c) == 0 and not np.isfinite(c):
         raise KinematicsError(
             "setting_angle: the links of phase 1 cannot be joined with the crank at "
-            f"{params.setting_angle:g} degrees; set the machine where they can"
+            f"{_setting_angle(params):g} degrees; set the machine where they can"
         )
     return b1, c
 

@@ -17,7 +17,8 @@ from mechwright.mechanics.linkage.clamp import screw_parts, stud_part
 from mechwright.mechanics.linkage.scale import scale
 from mechwright.mechanics.linkage.turned import SHAFT, STEEL
 from mechwright.standards.screws import washer
-from mechwright_five_bar.kinematics.phases import pose, pose_angles, settings_of
+from mechwright_five_bar.kinematics.dimensions import bar_of
+from mechwright_five_bar.kinematics.phases import pose_angles, settings_of
 from mechwright_five_bar.kinematics.train import gear_teeth
 from mechwright_five_bar.parameters import FiveBarParams
 from mechwright_five_bar.parts.frames import fixed_frames
@@ -91,9 +92,14 @@ def phase_mark(params: FiveBarParams, *, clamped: bool) -> FittingMark:
 
 
 def set_angles(params: FiveBarParams) -> tuple[float, float]:
-    """Angles of crank and arm from the line A0 B0 in the pose of setting, degrees from 0 to 360."""
-    crank, _ = pose_angles(params)
-    b1, _ = pose(params)
+    """Angles of crank and arm from the line A0 B0 in the pose of setting, degrees from 0 to 360.
+
+    Without one it is the begin of the crank's swing, or a crank on the line. The gears alone tell the arm's.
+    """
+    crank = params.setting_angle
+    if crank is None:
+        crank = params.swing_from or 0.0
+    _, b1 = bar_of(params).pivots(math.radians(crank))
     arm = math.degrees(cmath.phase(complex(b1) - params.ground))
     return crank % 360.0, arm % 360.0
 
