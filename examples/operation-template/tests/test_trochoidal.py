@@ -104,7 +104,7 @@ def test_a_groove_through_the_plate_is_proven():
 
 
 def test_the_cutters_are_chosen_for_it():
-    assert "groove: loops" in cuts(proven(job(plate(STRAIGHT))))
+    assert "groove: loops" in cuts(proven(job(plate(STRAIGHT, width=12.0))))
 
 
 @pytest.mark.parametrize(("width", "tools"), [(6.0, ("mill-6",)), (8.0, ("mill-6",))])
