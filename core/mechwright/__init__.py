@@ -155,6 +155,7 @@ __all__ += [
     "FileName",
     "Inspection",
     "Page",
+    "Process",
     "RawStock",
     "Standing",
     "Table",
