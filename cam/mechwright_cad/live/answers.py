@@ -48,7 +48,7 @@ def _with_targets(design: Design, found: Mapping[str, Any]) -> Answer:
 def mechanism(design: Design) -> Answer:
     """The mechanism's own parts in motion, before what tables put around it is made; empty without a table.
 
-    A tenth of a second, where a frame takes ten times that. It is empty too where no plate of it moves, or the
+    A tenth of a second, where a frame takes ten times that. It is empty too where no plate moves, or the
     family's parts cannot be made: :func:`parts` tells what is wrong.
     """
     around = any(
