@@ -132,14 +132,18 @@ def cut_part(part: Part, process: Process, settings: CutSettings) -> CutPart:
         diameter, bore = 2 * arc.radius, fits.get(number)
         said = f"the hole of {diameter:g} mm at ({arc.centre[0]:.3f}, {arc.centre[1]:.3f})"
         if bore is not None and bore.fit is not None and not holds(process, bore):
-            diameter = round(bore.diameter - process.pilot, 3)
             said = f"{bore.name} at ({bore.centre[0]:.3f}, {bore.centre[1]:.3f})"
-            after.append(f"ream {said} to {bore.fit.text}")
+            if settings.fits == "bush":
+                diameter = round(bore.fit.size + 2 * settings.bush, 3)
+                after.append(f"bond a bush of {diameter:g} x {bore.fit.text} into {said}")
+            else:
+                diameter = round(bore.diameter - process.pilot, 3)
+                after.append(f"ream {said} to {bore.fit.text}")
         if diameter < process.least_hole(part.thickness) and settings.small_holes == "spot":
             spots.append(arc.centre)
             after.append(f"drill {said}: {diameter:g} mm, marked with a cross")
             continue
-        if diameter < 2 * arc.radius:
+        if diameter != 2 * arc.radius:
             loop = Loop((circle(arc.centre, diameter / 2, clockwise=True),))
         inner.append(loop)
     for detail in part.details:
@@ -224,7 +228,8 @@ def _too_small(
         if plate_layout(sizes, max(length - 2 * rim, 1e-3), max(width - 2 * rim, 1e-3), gap, True):
             return (
                 f"cut.sheet: the {len(sizes)} parts of {name} do not fit on {sheet.length:g} x "
-                f"{sheet.width:g} mm with {gap:g} mm between them; set cut.sheet = {{ length = {length}, width = {width} }}"
+                f"{sheet.width:g} mm with {gap:g} mm between them; set "
+                f"cut.sheet = {{ length = {length}, width = {width} }}"
             )
         scale *= 1.1
 

@@ -1,4 +1,4 @@
-"""Where a contour begins, and the way in and out: in the waste, off flanks, and clear of every other piece."""
+"""Where a contour begins, and the way in and out: in the waste, off flanks, clear of every other piece."""
 
 import math
 from collections.abc import Sequence
@@ -129,7 +129,7 @@ def _out(whole: Path, rho: float, waste: Waste, overcut: float) -> Path:
 
 
 def _from_middle(path: Path, loop: Loop, waste: Waste, overcut: float, name: str) -> Path:
-    """From the middle of a small opening: half a circle in a round one, else straight to the nearest place."""
+    """From the middle of a small opening: on half a circle in a round one, else straight to a near place."""
     opening = shapely.Polygon(loop.flatten())
     if loop.area > 0:
         raise GeometryError(f"{name}: there is no room for a lead beside it; set a greater cut.sheet.gap")

@@ -4,6 +4,7 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
+from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.parameters import FIRST, GIVEN, Parameters
 from mechwright.units import Millimetres, MillimetresPerMin, Ratio, Seconds
 from mechwright_cut.settings.figures import Process, ProcessName, processes
@@ -64,10 +65,11 @@ class CutSettings(Parameters):
     joint_width: Millimetres = Field(0.4, gt=0, le=5, description="Width of the material of a micro-joint.")
     engrave_power: Ratio = Field(20.0, gt=0, le=100, description="Power that marks the surface.")
     engrave_feed: MillimetresPerMin = Field(1500.0, gt=0, le=60000, description="Feed of engraving.")
-    fits: Literal["ream", "refuse"] = Field(
+    fits: Literal["ream", "bush", "refuse"] = Field(
         "ream",
-        description="Holes with a fit that the process does not hold: cut small and reamed, or refused.",
+        description="Holes whose fit is not held: cut small and reamed, cut for a bush, or refused.",
     )
+    bush: Millimetres = Field(1.5, gt=0, le=20, description="Wall of such a bush.")
     small_holes: Literal["refuse", "spot"] = Field(
         "refuse", description="Holes below the least one: refused, or marked to be drilled."
     )
@@ -102,11 +104,20 @@ class CutSettings(Parameters):
         """S word and feed, mm/min, of a mark."""
         return self.full_power * self.engrave_power / 100, self.engrave_feed
 
-    def kind(self, process: str) -> Process:
-        """The figures of what cuts: of a service, that by which it does.
+    def kind(self, process: str, material: str) -> Process:
+        """The figures of what cuts a material: of a service, that by which it does.
 
-        >>> CutSettings(laser="diode").kind("laser").words, CutSettings(by="wire").kind("service").words
-        ('diode laser', 'wire erosion')
+        A service has a fibre laser for metals.
+
+        >>> CutSettings(laser="diode").kind("laser", "mdf").words
+        'diode laser'
+        >>> [CutSettings(by=by).kind("service", "steel").words for by in ("laser", "wire")]
+        ['fibre laser', 'wire erosion']
         """
         name = self.by if process == SERVICE else process
-        return processes()[f"{self.laser}-laser" if name == LASER else name]
+        if name != LASER:
+            return processes()[name]
+        if process == LASER:
+            return processes()[f"{self.laser}-laser"]
+        metal = MATERIALS[material].kind in {"steel", "soft metal"} if material in MATERIALS else False
+        return processes()["fibre-laser" if metal else "co2-laser"]

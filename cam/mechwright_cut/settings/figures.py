@@ -83,10 +83,21 @@ class Process:
 class KerfRow(Protocol):
     """A kerf that was measured."""
 
-    process: str
-    material: str
-    thickness: float
-    kerf: float
+    @property
+    def process(self) -> str:
+        """Kind of the process, such as ``"co2-laser"``."""
+
+    @property
+    def material(self) -> str:
+        """Material or group, or any."""
+
+    @property
+    def thickness(self) -> float:
+        """Of the sheet, mm."""
+
+    @property
+    def kerf(self) -> float:
+        """Width of the slot, mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,16 +146,16 @@ def kerf_of(process: str, name: str, thickness: float, measured: Sequence[KerfRo
         )
         if own:
             at, widths = zip(*own, strict=True)
-            return Kerf(float(np.interp(thickness, at, widths)), 0.0, "measured", measured=True)
+            return Kerf(round(float(np.interp(thickness, at, widths)), 3), 0.0, "measured", measured=True)
     for wanted in (*_names(name), ANY):
         rows = [r for r in _rows() if (r["process"], r["material"]) == (process, wanted)]
         if rows:
-            at = [r.get("thickness", thickness) for r in rows]
-            low, high = (float(np.interp(thickness, at, [r["kerf"][end] for r in rows])) for end in (0, 1))
+            steps = [r.get("thickness", thickness) for r in rows]
+            low, high = (float(np.interp(thickness, steps, [r["kerf"][end] for r in rows])) for end in (0, 1))
             near = min(rows, key=lambda r: abs(r.get("thickness", thickness) - thickness))
             return Kerf(
-                round((low + high) / 2, 4),
-                round((high - low) / 2, 4),
+                round((low + high) / 2, 3),
+                round((high - low) / 2, 3),
                 f"{near['source']}, {near['confidence']}",
             )
     return None
