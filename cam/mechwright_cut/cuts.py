@@ -50,8 +50,8 @@ class Contour:
 class WirePass:
     """One pass of a wire along the net contour.
 
-    ``side`` is 41 with the wire on the left of the way, 42 on its right; ``register`` numbers its D. At the
-    first point of ``path`` the offset is put on, at the last one it is taken off.
+    ``side`` is 41 with the wire on the left of the way, 42 on its right; ``register`` numbers its D. ``path``
+    starts where the offset is put on, and ends where it is taken off.
     """
 
     side: int
@@ -61,7 +61,7 @@ class WirePass:
 
 @dataclass(frozen=True)
 class WireContour:
-    """One contour of a wire: thread at ``hole``, passes, stop, cut off, cut the wire."""
+    """One contour of a wire: threaded at ``hole``, run in ``passes``, cut off by the ``last`` one."""
 
     name: str
     role: Role
@@ -70,3 +70,18 @@ class WireContour:
     """Around all but the tab."""
     last: WirePass
     """The tab, by which the slug or the part falls."""
+
+    @property
+    def start(self) -> Point:
+        """The start hole."""
+        return self.hole
+
+    @property
+    def strokes(self) -> tuple[Path, ...]:
+        """Ways of all passes, and along the tab."""
+        return (*(one.path for one in self.passes), self.last.path)
+
+    @property
+    def length(self) -> float:
+        """Way of the wire, mm."""
+        return sum(stroke.length for stroke in self.strokes)

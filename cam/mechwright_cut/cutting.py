@@ -1,6 +1,6 @@
 """Sheets, programs and proofs of a build: the one place where planning and proof meet."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,19 +9,25 @@ from mechwright.contracts.part import Part, name_from
 from mechwright.errors import DesignError, GeometryError, ProofError
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import plates_by
-from mechwright_cut.cuts import Contour
+from mechwright_cut.cuts import Contour, WireContour
 from mechwright_cut.jobs import CutJob, CutPart, cut_part, nested
 from mechwright_cut.paths.order import contours
+from mechwright_cut.paths.wire import wire_contours
 from mechwright_cut.programs.grbl_laser import grbl_laser
+from mechwright_cut.programs.iso_wire import iso_wire
 from mechwright_cut.programs.linuxcnc_beam import linuxcnc_beam
 from mechwright_cut.proof.judge import CutProof, Question, WantedPiece, prove
+from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
 from mechwright_cut.rules.part_rules import part_findings, refused
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
 from mechwright_cut.settings.cut_table import cut_settings
 from mechwright_cut.settings.figures import Kerf, Process, kerf_of, refusal
 
-WRITERS = {"grbl-laser": (grbl_laser, ".nc"), "linuxcnc-beam": (linuxcnc_beam, ".ngc")}
-"""Control to what writes its programs, and how their files end."""
+WRITERS = {"grbl-laser": grbl_laser, "linuxcnc-beam": linuxcnc_beam}
+"""Control of a beam to what writes its programs."""
+SUFFIXES = {"grbl-laser": ".nc", "linuxcnc-beam": ".ngc", "iso-wire": ".iso"}
+"""Control to how its files end."""
+Ways = Sequence[Contour] | Sequence[WireContour]
 
 
 @dataclass(frozen=True)
@@ -29,7 +35,7 @@ class ProvenCut:
     """A program and its proof."""
 
     job: CutJob
-    contours: tuple[Contour, ...]
+    contours: Ways
     text: str
     suffix: str
     proof: CutProof
@@ -72,6 +78,33 @@ def question(job: CutJob, control: str) -> Question:
         joint_width=settings.joint_width,
         refused="" if why is None or lifted else why.why,
     )
+
+
+def wire_question(job: CutJob) -> WireQuestion:
+    """What the proof of a wire has to know of a sheet."""
+    why = refusal(job.process.name, job.material)
+    return WireQuestion(
+        registers=job.settings.registers(job.kerf.width),
+        start_hole=job.settings.start_hole,
+        sheet=job.size,
+        pieces=tuple(WantedPiece(piece.label, piece.outline) for piece in job.pieces),
+        refused="" if why is None else why.why,
+    )
+
+
+def control_of(job: CutJob) -> str:
+    """The control of a sheet: that of the process, or the one that is named for beams."""
+    usual = job.process.control
+    return usual if usual == "iso-wire" else job.settings.control or usual
+
+
+def written(job: CutJob, ways: Ways, control: str) -> tuple[str, CutProof]:
+    """A program and its proof."""
+    if control == "iso-wire":
+        text = iso_wire(job, [way for way in ways if isinstance(way, WireContour)])
+        return text, prove_wire(text, wire_question(job))
+    text = WRITERS[control](job, [way for way in ways if isinstance(way, Contour)])
+    return text, prove(text, question(job, control))
 
 
 class Cutting:
@@ -129,20 +162,20 @@ class Cutting:
         yield from self._planned[1]
 
     @cached_property
-    def _planned(self) -> tuple[list[tuple[CutJob, list[Contour]]], list[Finding]]:
+    def _planned(self) -> tuple[list[tuple[CutJob, Ways]], list[Finding]]:
         groups: dict[tuple[str, str, float], list[tuple[Process, Kerf, CutPart]]] = {}
         for name, process, kerf, cut in self.cut_parts:
-            if name not in (SERVICE, WIRE):
+            if name != SERVICE:
                 alike = groups.setdefault((name, cut.part.material, cut.part.thickness), [])
                 alike.append((process, kerf, cut))
-        found: list[tuple[CutJob, list[Contour]]] = []
+        found: list[tuple[CutJob, Ways]] = []
         wrong: list[Finding] = []
         for (by, material, thickness), rows in groups.items():
             stem = name_from(f"{by}-{material}-{thickness:g}", by)
             process, kerf, _ = rows[0]
             try:
                 job = nested(stem, [cut for *_, cut in rows], process, kerf, self.settings)
-                found.append((job, contours(job)))
+                found.append((job, wire_contours(job) if by == WIRE else contours(job)))
             except DesignError as error:
                 key, _, said = str(error).partition(": ")
                 message, _, remedy = said.rpartition("; ")
@@ -159,22 +192,18 @@ class Cutting:
             return []
         found = []
         for job, ways in self._planned[0]:
-            control = self.settings.control or job.process.control
-            write, suffix = WRITERS[control]
-            text = write(job, ways)
-            proof = prove(text, question(job, control))
+            control = control_of(job)
+            text, proof = written(job, ways, control)
             if not proof.ok:
                 said = "; ".join(f"{one.name}: {one.message}" for one in proof.failures)
                 raise ProofError(f"{job.name}: the program would not cut the right parts: {said}")
-            found.append(ProvenCut(job, tuple(ways), text, suffix, proof))
+            found.append(ProvenCut(job, ways, text, SUFFIXES[control], proof))
         return found
 
     @property
     def program_names(self) -> list[str]:
         """Files of the programs."""
-        return [
-            job.name + WRITERS[self.settings.control or job.process.control][1] for job, _ in self._planned[0]
-        ]
+        return [job.name + SUFFIXES[control_of(job)] for job, _ in self._planned[0]]
 
     @property
     def ordered(self) -> list[CutPart]:

@@ -24,6 +24,8 @@ MOST = 400
 """Copies on one sheet at most: their number comes from a file, and each costs time."""
 PIERCE = 1.5
 """A pierce stays so many kerfs off every wall: it is wider than the cut."""
+BESIDE = 1.5
+"""The start hole of a wire keeps so far off the contour, mm: it is drilled, and may be off its place."""
 LEAST_LEAD = 1.0
 """Least radius of a lead by default, mm."""
 MARK = 1.0
@@ -177,6 +179,8 @@ def gap_of(settings: CutSettings, kerf: Kerf, process: Process, thickness: float
     """Least distance between two parts, mm: a web between the kerfs, or room for a pierce."""
     if settings.sheet.gap is not None:
         return settings.sheet.gap
+    if process.name == "wire":
+        return round(settings.start_hole + 2 * BESIDE + 1, 2)
     lead = lead_radius(settings, kerf.width) + PIERCE * kerf.width + kerf.width
     return round(max(process.least_web(thickness) + 2 * kerf.width, 2 * lead), 2)
 

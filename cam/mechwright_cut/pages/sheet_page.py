@@ -102,10 +102,17 @@ def _steps(item: ProvenCut) -> list[str]:
         if not kerf.measured
         else f"The kerf is {kerf.width:g} mm ({kerf.source}).",
     ]
-    if settings.passes > 1:
+    if settings.passes > 1 and item.suffix != ".iso":
         lines.append(f"Each contour is run {settings.passes} times.")
-    if settings.control != "linuxcnc-beam" and item.suffix == ".nc":
+    if item.suffix == ".nc":
         lines.append(f"Grbl: $32=1 and $30={settings.full_power} now; $32=0 again before milling.")
+    if item.suffix == ".iso":
+        registers = enumerate(settings.registers(kerf.width), start=1)
+        lines.append(f"Enter {', '.join(f'D{n} = {value:g} mm' for n, value in registers)}.")
+        lines.append(
+            f"Drill start holes of {settings.start_hole:g} mm where the picture has dots. The program stops "
+            "(M1) before each tab: hold what falls."
+        )
     if laser:
         lines.append("Switch on air and extraction. Stay beside it until the last piece is cold.")
     if settings.joints and job.process.joints:

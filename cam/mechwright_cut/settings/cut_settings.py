@@ -11,7 +11,9 @@ from mechwright_cut.settings.figures import Process, ProcessName, processes
 
 LASER, WATERJET, PLASMA, WIRE, SERVICE = NAMES = ("laser", "waterjet", "plasma", "wire", "service")
 """What ``process`` says."""
-Control = Literal["", "grbl-laser", "linuxcnc-beam", "iso-wire"]
+SKIMS = (0.0, 0.01, 0.05, 0.06)
+"""By how much the offset of a wire's last pass, the one before, and so on, is above the last one, mm."""
+Control = Literal["", "grbl-laser", "linuxcnc-beam"]
 ServiceName = Literal["sendcutsend", "ponoko", "snapcut", "acute-laser"]
 
 
@@ -43,7 +45,7 @@ class CutSettings(Parameters):
     )
     service: ServiceName = Field("sendcutsend", description='Who cuts, where process = "service".')
     by: Literal["laser", "waterjet", "plasma", "wire"] = Field("laser", description="How the service cuts.")
-    control: Control = Field("", description="Control of the machine. Default: the usual one of the process.")
+    control: Control = Field("", description="Control of a beam. Default: the usual one of the process.")
     kerf: Millimetres | None = Field(
         None, gt=0, le=10, description="Kerf. Default: measured or built in.", json_schema_extra=GIVEN
     )
@@ -77,6 +79,8 @@ class CutSettings(Parameters):
     offsets: tuple[Millimetres, ...] = Field(
         (), max_length=9, description="Of wire: D1, D2 ... Default: by the number of passes."
     )
+    start_hole: Millimetres = Field(1.0, gt=0, le=10, description="Diameter of start holes for the wire.")
+    tab: Millimetres = Field(1.0, gt=0, le=20, description="What holds until the wire cuts it last.")
     sheet: CutSheet = Field(CutSheet(), description="The sheet.")
 
     @model_validator(mode="after")
@@ -93,6 +97,19 @@ class CutSettings(Parameters):
         if any(after > before for before, after in zip(self.offsets, self.offsets[1:], strict=False)):
             raise ValueError("offsets rise; a later pass comes nearer to the wall: sort them downwards")
         return self
+
+    def registers(self, kerf: float) -> tuple[float, ...]:
+        """D1, D2 ... of a wire, mm: those that are given, or the usual ones; the last is half the kerf.
+
+        A skim leaves the next one little: usual differences, by practice, are in ``SKIMS``.
+
+        >>> CutSettings(passes=3).registers(0.28)
+        (0.19, 0.15, 0.14)
+        """
+        if self.offsets:
+            return self.offsets
+        left = SKIMS[: self.passes] + (0.0,) * (self.passes - len(SKIMS))
+        return tuple(round(kerf / 2 + left[self.passes - 1 - number], 4) for number in range(self.passes))
 
     @property
     def cutting(self) -> tuple[float, float]:
