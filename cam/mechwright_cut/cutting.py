@@ -126,6 +126,10 @@ class Cutting:
             return Kerf(self.settings.kerf, 0.0, "cut.kerf", measured=True)
         return kerf_of(process.name, part.material, part.thickness, self.settings.kerfs)
 
+    def _may(self, name: str, process: Process, part: Part) -> bool:
+        """Whether a part can be cut at all; else the choice of its process is told."""
+        return refused(part, process, self.settings, service=name == SERVICE) is None
+
     @cached_property
     def cut_parts(self) -> list[tuple[str, Process, Kerf, CutPart]]:
         """Each part that its process can make: the name of that, its figures, the kerf, and the part."""
@@ -134,7 +138,7 @@ class Cutting:
             for part in parts:
                 process = self.settings.kind(name, part.material)
                 kerf = self.kerf(process, part)
-                if refused(part, process, self.settings) is None and kerf is not None:
+                if kerf is not None and self._may(name, process, part):
                     found.append((name, process, kerf, cut_part(part, process, self.settings)))
         return found
 
@@ -150,7 +154,7 @@ class Cutting:
                 yield from _wrong_settings(self.settings, name, process)
             for part in parts:
                 process = self.settings.kind(name, part.material)
-                if refused(part, process, self.settings) is None and self.kerf(process, part) is None:
+                if self.kerf(process, part) is None and self._may(name, process, part):
                     yield _error(
                         "cut.kerf",
                         "cut.kerf",

@@ -16,10 +16,12 @@ class Cut(Process):
     def refuses(self, part: Part, build: Build) -> str | None:
         """Recesses, materials that must not be cut, thickness, shapes that overlap."""
         from mechwright_cut.rules.part_rules import refused
+        from mechwright_cut.settings.cut_settings import SERVICE
         from mechwright_cut.settings.cut_table import cut_settings
 
         settings = cut_settings(build.design)
-        return refused(part, settings.kind(self.name, part.material), settings)
+        kind = settings.kind(self.name, part.material)
+        return refused(part, kind, settings, service=self.name == SERVICE)
 
     def loses(self, part: Part, build: Build) -> Sequence[str]:
         """Fits that it does not hold, its tolerance, and the taper."""

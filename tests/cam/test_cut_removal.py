@@ -87,7 +87,7 @@ def test_what_the_beam_goes_round_is_the_outline_moved_by_half_a_kerf(name, kerf
     assert found[0] == pytest.approx(moved, abs=0.003 * ring.length)
     for area, loop in zip(found[1:], sorted(inner, key=lambda one: one.area), strict=True):
         hole = 2 * math.sqrt(abs(loop.area) / math.pi)
-        assert area == pytest.approx(math.pi / 4 * (hole - kerf) ** 2, rel=1e-3)
+        assert area == pytest.approx(math.pi / 4 * (hole - kerf) ** 2, rel=3e-3)
 
 
 @pytest.mark.parametrize("name", PARTS)

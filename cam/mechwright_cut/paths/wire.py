@@ -21,6 +21,10 @@ from mechwright_plane.offsets import grow, polygons, rings
 from mechwright_plane.path import Path, circle, line, printed
 from mechwright_plane.places import candidates
 
+NARROW = 0.5
+"""In a small opening the start hole stands in the middle, and keeps at least so far off, mm."""
+LEAST_DRILL = 0.3
+"""Least start hole that is drilled, or eroded by a starter, mm."""
 OFF = 3.0
 """The wire leaves the wall by so many of the largest D between two passes."""
 LEFT, RIGHT = 41, 42
@@ -71,7 +75,7 @@ def _contour(job: CutJob, loop: Loop, role: Role, name: str, kept: shapely.Geome
     whole = net_contour(loop, registers[0], role == "outside", name)
     room = settings.start_hole / 2 + BESIDE
     if role == "inside":
-        hole, at = _inside(whole, loop, room, name)
+        hole, at = _inside(whole, loop, settings.start_hole / 2 + NARROW, name)
     else:
         hole, at = _outside(job, whole, loop, room, kept, name)
     ring = turned_to(whole, at)
@@ -84,10 +88,10 @@ def _inside(whole: Path, loop: Loop, room: float, name: str) -> tuple[Point, flo
     opening = shapely.Polygon(loop.flatten())
     widest = shapely.maximum_inscribed_circle(opening)
     if widest.length < room:
-        across = 2 * widest.length
+        across, smaller = 2 * widest.length, math.floor(20 * (widest.length - NARROW)) / 10
+        remedy = f"set cut.start_hole = {smaller:g}" if smaller >= LEAST_DRILL else "make it larger"
         raise GeometryError(
-            f"{name}: a start hole needs {2 * room:g} mm across, and the opening has {across:.2f}; "
-            "set cut.start_hole = 0.5, or leave it to be drilled"
+            f"{name}: a start hole needs {2 * room:g} mm across, and the opening has {across:.2f}; {remedy}"
         )
     x, y = shapely.get_coordinates(widest)[0].tolist()
     ways, points, _ = candidates(whole)

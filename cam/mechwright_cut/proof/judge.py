@@ -309,4 +309,6 @@ def _marks(reading: Reading, asked: Question) -> Check:
         faults.append("a mark where none is wanted")
     if shapely.difference(aims, shapely.buffer(drawn, WALL)).length > WALL:
         faults.append("a mark is missing")
+    if sum(way([m]).length for m in lit) > aims.length + WALL:
+        faults.append("a mark is cut more than once")
     return _check("marks", faults)

@@ -20,8 +20,11 @@ FELT = 0.05
 """A corner that keeps less than this, mm, is not worth a word."""
 
 
-def refused(part: Part, process: Process, settings: CutSettings) -> str | None:
-    """Why a process cannot make a plate at all, in a clause; None where it can."""
+def refused(part: Part, process: Process, settings: CutSettings, *, service: bool = False) -> str | None:
+    """Why a process cannot make a plate at all, in a clause; None where it can.
+
+    How thick a ``service`` cuts is on its own list.
+    """
     if names := recesses(part):
         return f"{', '.join(names[:3])} does not go through, and {process.words} cuts through"
     why = refusal(process.name, part.material)
@@ -32,7 +35,7 @@ def refused(part: Part, process: Process, settings: CutSettings) -> str | None:
     if most is None:
         others = ", ".join(able(part.material, part.thickness)) or "none"
         return f"nothing is known of {part.material} by {process.words}; known: {others}"
-    if part.thickness > most:
+    if part.thickness > most and not service:
         return (
             f"{process.words} cuts {part.material} up to {most:g} mm, and it is {part.thickness:g} mm thick"
         )
