@@ -61,15 +61,11 @@ def test_arcs_stay_arcs():
         (
             Loop.polygon([(0, 0), (10, 0), (10, 5.2), (3, 5.2), (3, 5.5), (10, 5.5), (10, 10), (0, 10)]),
             True,
-            "wider than a slot around it",
+            r"wider than the slot at \(3.00, 5.\d0\)",
         ),
     ],
 )
 def test_a_kerf_that_is_wider_than_a_slot_is_refused(loop, outside, said):
-    if said.endswith("around it"):
-        path = beam_path(loop, 0.5, outside, "part")  # a mouth that closes is no ring of its own
-        assert path.length < loop.moved(0, 0).flatten().shape[0] * 100
-        return
     with pytest.raises(GeometryError, match=said):
         beam_path(loop, 0.5, outside, "part")
 

@@ -4,8 +4,10 @@ import math
 
 import shapely
 
+from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry import Arc, Loop
+from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_plane.arcfit import fit
 from mechwright_plane.offsets import grow, polygons, rings
@@ -43,7 +45,22 @@ def beam_path(loop: Loop, kerf: float, outside: bool, name: str) -> Path:
     if len(found) != 1 or len(polygons(shape)) != 1:
         what = "a slot around it" if outside else "it, or a slot in it"
         raise GeometryError(f"{name}: the kerf of {kerf:g} mm is wider than {what}")
+    if at := unreached(loop, found[0], kerf):
+        x, y = at
+        raise GeometryError(f"{name}: the kerf of {kerf:g} mm is wider than the slot at ({x:.2f}, {y:.2f})")
     return fit(found[0], FIT)
+
+
+def unreached(loop: Loop, ring: Array, kerf: float) -> Point | None:
+    """A place of a loop to which a beam that runs along a ring (n, 2) does not come; None if there is none.
+
+    In a corner of angle a it stays off by k / 2 (1 / sin(a / 2) - 1). What is deeper than the kerf is no
+    corner but a slot.
+    """
+    points = loop.flatten()
+    off = shapely.distance(shapely.points(points), shapely.LinearRing(ring))
+    x, y = points[int(off.argmax())].tolist()
+    return (x, y) if off.max() > 1.5 * kerf else None
 
 
 def turned_to(path: Path, at: float) -> Path:

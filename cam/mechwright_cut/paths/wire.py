@@ -15,7 +15,7 @@ from mechwright.geometry.segments import Point
 from mechwright_cut.cuts import Role, WireContour, WirePass
 from mechwright_cut.jobs import BESIDE, CutJob, target
 from mechwright_cut.paths.entries import working
-from mechwright_cut.paths.parallels import FIT, headings, turned_to
+from mechwright_cut.paths.parallels import FIT, headings, turned_to, unreached
 from mechwright_plane.contour import offset_contour
 from mechwright_plane.offsets import grow, polygons, rings
 from mechwright_plane.path import Path, circle, line, printed
@@ -66,6 +66,11 @@ def net_contour(loop: Loop, reach: float, outside: bool, name: str) -> Path:
     found = rings(shape, climb=outside)
     if len(found) != 1 or len(polygons(shape)) != 1:
         raise GeometryError(f"{name}: the wire needs {2 * reach:g} mm, and a slot is narrower")
+    if at := unreached(loop, found[0], 2 * reach):
+        x, y = at
+        raise GeometryError(
+            f"{name}: the wire needs {2 * reach:g} mm, and the slot at ({x:.2f}, {y:.2f}) has less"
+        )
     return offset_contour(found[0], reach, 1, FIT)
 
 

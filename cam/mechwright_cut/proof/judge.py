@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import shapely
 
 from mechwright.errors import ProgramError
@@ -223,7 +224,8 @@ def _joins(line: shapely.LineString, first: Motion, asked: Question) -> list[str
             ends = [shapely.Point(shapely.get_coordinates(part)[0]) for part in shapely.get_parts(near)]
             at = min(ends, key=lambda end: shapely.line_locate_point(line, end))
             off = [shapely.distance(shapely.LineString(s.flatten(0.01)), at) for s in loop.segments]
-            if flags[off.index(min(off))]:
+            # At a corner it meets both neighbours.
+            if all(flag for flag, one_off in zip(flags, off, strict=True) if one_off <= min(off) + WALL):
                 tag = loop.segments[off.index(min(off))].tag
                 return [f"line {first.line}: the lead meets {one.name} on a {tag}"]
     return []
@@ -265,12 +267,22 @@ def _fits(name: str, piece: shapely.Geometry, shape: shapely.Polygon, kerf: floa
     lack = shapely.difference(shape, shapely.buffer(piece, WALL))
     reach = shapely.buffer(shapely.buffer(shape, kerf / 2, quad_segs=64), -kerf / 2, quad_segs=64)
     over = shapely.difference(piece, shapely.buffer(reach, WALL))
-    found = []
+    found = slots(name, shape, reach, kerf)
     for what, rest in (("cut into", lack), ("left on", over)):
         if rest.area > SPECK:
             x, y = rest.representative_point().coords[0]
             found.append(f"{name}: {rest.area:.4f} mm² {what} it at X{x:.3f} Y{y:.3f}")
     return found
+
+
+def slots(name: str, shape: shapely.Polygon, reach: shapely.Geometry, kerf: float) -> list[str]:
+    """What no beam of this width opens, and is deeper than any corner: a slot that it would leave full."""
+    points = np.concatenate([np.asarray(ring.coords) for ring in (shape.exterior, *shape.interiors)])
+    off = shapely.distance(shapely.points(points), shapely.boundary(reach))
+    if off.max() <= kerf:
+        return []
+    x, y = points[int(off.argmax())]
+    return [f"{name}: the slot at X{x:.2f} Y{y:.2f} is narrower than the kerf of {kerf:g} mm"]
 
 
 def _jointed(

@@ -176,6 +176,9 @@ def _same(ring: shapely.Polygon, wanted: shapely.Polygon, reach: float, outside:
     sign = 1 if outside else -1
     closed = shapely.buffer(shapely.buffer(wanted, sign * reach, quad_segs=64), -sign * reach, quad_segs=64)
     least, most = (wanted, closed) if outside else (closed, wanted)
+    points = shapely.points(shapely.get_coordinates(wanted.exterior))
+    if shapely.is_empty(closed) or shapely.distance(points, closed.boundary).max() > 2 * reach:
+        return False  # a slot that the wire would leave full
     return bool(shapely.covers(shapely.buffer(most, WALL), ring)) and bool(
         shapely.covers(shapely.buffer(ring, WALL), least)
     )
