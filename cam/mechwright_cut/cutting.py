@@ -16,7 +16,7 @@ from mechwright_cut.paths.wire import wire_contours
 from mechwright_cut.programs.grbl_laser import grbl_laser
 from mechwright_cut.programs.iso_wire import iso_wire
 from mechwright_cut.programs.linuxcnc_beam import linuxcnc_beam
-from mechwright_cut.proof.judge import CutProof, Question, WantedPiece, prove
+from mechwright_cut.proof.judge import CutProof, Question, TargetPiece, prove
 from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
 from mechwright_cut.rules.part_rules import part_findings, refused
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
@@ -58,7 +58,7 @@ def question(job: CutJob, control: str) -> Question:
     lifted = why is not None and why.unless and getattr(settings, why.unless)
     joints = settings.joints if job.process.joints else 0
     pieces = tuple(
-        WantedPiece(
+        TargetPiece(
             piece.label,
             piece.outline,
             tuple(tuple(stroke) for stroke in piece.strokes) if job.process.engraves else (),
@@ -87,7 +87,7 @@ def wire_question(job: CutJob) -> WireQuestion:
         registers=job.settings.registers(job.kerf.width),
         start_hole=job.settings.start_hole,
         sheet=job.size,
-        pieces=tuple(WantedPiece(piece.label, piece.outline) for piece in job.pieces),
+        pieces=tuple(TargetPiece(piece.label, piece.outline) for piece in job.pieces),
         refused="" if why is None else why.why,
     )
 

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from mechwright.contracts.finding import Finding, Stage
-from mechwright.pipeline import PROGRAMS, Build, Inspection
+from mechwright.contracts.part import Part
+from mechwright.pipeline import PROGRAMS, Build, Inspectionfrom mechwright.pipeline.process import Process
 
 
 class Cuttable(Inspection):
@@ -16,10 +17,26 @@ class Cuttable(Inspection):
     share = 5.0
 
     def findings(self, build: Build) -> Sequence[Finding]:
-        """What forbids or hampers cutting."""
+        """What forbids or hampers cutting; of each plate that is cut, its time and what it loses."""
         from mechwright_cut.cutting import Cutting
 
-        return build.made(Cutting).findings
+        cutting = build.made(Cutting)
+        known = {one.name: one for one in build.host.all(Process)}
+        notes = [
+            Finding.note("cut.process", _summary(part, known[name], build))
+            for name, parts in cutting.plates.items()
+            for part in parts
+            if name in known and not known[name].refuses(part, build)
+        ]
+        return [*cutting.findings, *notes]
+
+
+def _summary(part: Part, process: Process, build: Build) -> str:
+    """A plate's time and losses by its process, in a sentence."""
+    seconds = process.seconds(part, build)
+    time = "" if seconds is None else f" takes about {max(seconds / 60, 0.1):.1f} min, and"
+    lost = "; ".join(process.loses(part, build))
+    return f"{part.name}: {process.title}{time} gives {lost}"
 
 
 class ProvenCuts(Inspection):

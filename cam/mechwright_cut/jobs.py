@@ -117,7 +117,7 @@ def fitted_bores(part: Part) -> dict[int, Bore]:
     return found
 
 
-def holds(process: Process, bore: Bore) -> bool:
+def keeps_limits(process: Process, bore: Bore) -> bool:
     """Whether a process keeps the limits of a hole's fit."""
     return bore.fit is not None and bore.fit.upper - bore.fit.lower >= 2 * process.holes - TOLERANCES.slack
 
@@ -133,7 +133,7 @@ def cut_part(part: Part, process: Process, settings: CutSettings) -> CutPart:
             continue
         diameter, bore = 2 * arc.radius, fits.get(number)
         said = f"the hole of {diameter:g} mm at ({arc.centre[0]:.3f}, {arc.centre[1]:.3f})"
-        if bore is not None and bore.fit is not None and not holds(process, bore):
+        if bore is not None and bore.fit is not None and not keeps_limits(process, bore):
             said = f"{bore.name} at ({bore.centre[0]:.3f}, {bore.centre[1]:.3f})"
             if settings.fits == "bush":
                 diameter = round(bore.fit.size + 2 * settings.bush, 3)

@@ -33,7 +33,7 @@ FELT = frozenset({"flank", "slot", "lobe", "dwell", "cam", "side"})
 
 
 @dataclass(frozen=True)
-class WantedPiece:
+class TargetPiece:
     """What has to fall out: an outline on the sheet, mm, its marks, and its micro-joints."""
 
     name: str
@@ -53,7 +53,7 @@ class Question:
     control: str
     kerf: float
     sheet: tuple[float, float]
-    pieces: tuple[WantedPiece, ...]
+    pieces: tuple[TargetPiece, ...]
     through: float
     mark: float
     full: float
@@ -286,7 +286,7 @@ def slots(name: str, shape: shapely.Polygon, reach: shapely.Geometry, kerf: floa
 
 
 def _jointed(
-    one: WantedPiece,
+    one: TargetPiece,
     shape: shapely.Polygon,
     own: Sequence[shapely.Geometry],
     left: shapely.Geometry,

@@ -14,7 +14,7 @@ import shapely
 from mechwright.arrays import Array
 from mechwright.errors import ProgramError
 from mechwright.tolerances import TOLERANCES
-from mechwright_cut.proof.judge import FELT, WALL, Check, CutProof, WantedPiece
+from mechwright_cut.proof.judge import FELT, WALL, Check, CutProof, TargetPiece
 from mechwright_cut.proof.reading import Motion
 from mechwright_cut.proof.swept import points_of
 from mechwright_cut.proof.wire_reading import Threaded, WireReading, WireRun, read_wire
@@ -35,7 +35,7 @@ class WireQuestion:
     registers: tuple[float, ...]
     start_hole: float
     sheet: tuple[float, float]
-    pieces: tuple[WantedPiece, ...]
+    pieces: tuple[TargetPiece, ...]
     refused: str = ""
 
 

@@ -12,7 +12,7 @@ from mechwright.errors import GeometryError
 from mechwright.geometry import Arc
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES, falls_short
-from mechwright_cut.jobs import CutPart, fitted_bores, holds, recesses
+from mechwright_cut.jobs import CutPart, fitted_bores, keeps_limits, recesses
 from mechwright_cut.settings.cut_settings import CutSettings
 from mechwright_cut.settings.figures import Process, able, greatest_thickness, refusal
 
@@ -63,7 +63,7 @@ def overlaps(part: Part) -> str | None:
 def loses(part: Part, process: Process) -> Iterator[str]:
     """What a plate has less of than as drawn."""
     for bore in fitted_bores(part).values():
-        if not holds(process, bore) and bore.fit is not None:
+        if not keeps_limits(process, bore) and bore.fit is not None:
             yield f"{bore.fit.short} of {bore.name}: ± {process.holes:g} mm"
     yield f"lengths ± {process.size:g} mm"
     if process.taper >= FELT:
@@ -160,7 +160,7 @@ def _corners(cut: CutPart, process: Process, kerf: float) -> Iterator[Finding]:
 def _fits(part: Part, process: Process, settings: CutSettings) -> Iterator[Finding]:
     soft = material(part.material).soft
     for bore in fitted_bores(part).values():
-        if holds(process, bore) or bore.fit is None:
+        if keeps_limits(process, bore) or bore.fit is None:
             continue
         width = bore.fit.upper - bore.fit.lower
         said = (

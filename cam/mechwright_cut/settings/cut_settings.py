@@ -80,7 +80,7 @@ class CutSettings(Parameters):
         (), max_length=9, description="Of wire: D1, D2 ... Default: by the number of passes."
     )
     start_hole: Millimetres = Field(1.0, gt=0, le=10, description="Diameter of start holes for the wire.")
-    tab: Millimetres = Field(1.0, gt=0, le=20, description="What holds until the wire cuts it last.")
+    tab: Millimetres = Field(1.0, gt=0, le=20, description="Bridge that is cut last, by a wire.")
     sheet: CutSheet = Field(CutSheet(), description="The sheet.")
 
     @model_validator(mode="after")
