@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.part import Part
-from mechwright.pipeline import PROGRAMS, Build, Inspectionfrom mechwright.pipeline.process import Process
+from mechwright.pipeline import PROGRAMS, Build, Inspection
+from mechwright.pipeline.process import Process
 
 
 class Cuttable(Inspection):
