@@ -8,8 +8,10 @@ from mechwright.plugins.hookspecs import hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """Imports what it gives only now: a module of plugins stays light."""
     from mechwright_cut.inspection import Cuttable, ProvenCuts
+    from mechwright_cut.pages.blanks import CutBlanks
     from mechwright_cut.pages.registered import CutPrograms, CutSheets
     from mechwright_cut.processes import Laser, Plasma, Service, Waterjet, Wire
     from mechwright_cut.settings.cut_table import CutTable
 
-    return [CutTable, Laser, Waterjet, Plasma, Wire, Service, Cuttable, ProvenCuts, CutPrograms, CutSheets]
+    processes = [Laser, Waterjet, Plasma, Wire, Service]
+    return [CutTable, *processes, Cuttable, ProvenCuts, CutPrograms, CutSheets, CutBlanks]
