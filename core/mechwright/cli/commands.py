@@ -347,7 +347,31 @@ class Sweep(Command):
         sweeping.run(study, output, workers, scheduler, as_json)
 
 
+class Mcp(Command):
+    """``mechwright mcp``."""
+
+    name = "mcp"
+    order = 98
+    reads_once = False
+    libraries = ("mcp",)
+
+    def run(
+        self,
+        folder: Annotated[
+            Path, typer.Argument(metavar="FOLDER", help="All files stay below it.", show_default=False)
+        ],
+    ) -> None:
+        """Serve the commands to an agent, by the Model Context Protocol.
+
+        The client starts it and speaks on its standard input and output.
+        """
+        from mechwright import __version__
+        from mechwright.agent.server import serve
+
+        serve(folder, __version__)
+
+
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The commands that need no other room."""
-    return [Demo, Families, New, Schema, Check, Fix, Solve, Build, Synthesize, Sweep]
+    return [Demo, Families, New, Schema, Check, Fix, Solve, Build, Synthesize, Sweep, Mcp]
