@@ -44,9 +44,6 @@ from mechwright.geometry import Arc, Line, Loop, Outline, circle
 from mechwright.plugins.host import host
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.reading.run import Kind
-from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.offsets import grow
-from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import OPERATION_COMMENT
 from mechwright_cam.proof import prove
@@ -54,6 +51,9 @@ from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_elliptic_gears.parts.gear import outline_of
+from mechwright_plane.arcfit import fit
+from mechwright_plane.offsets import grow
+from mechwright_plane.reach import closing
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 CHILD = Path(__file__).with_name("freecad_job.py")

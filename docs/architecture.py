@@ -38,6 +38,9 @@ STYLE = (
 
 
 CORE, CAD, CAM, CHECKER = FACADE, "mechwright_cad", "mechwright_cam", "mechwright_check"
+PLANE = "mechwright_plane"
+PROCESSES = {"mechwright_cut": "mechwright_cut"}
+"""Packages of processes besides milling, and their titles."""
 
 Spot = tuple[str, int]
 """A room, or an arrow as ``tail>tip``, and the number of the layer in which it stands or passes."""
@@ -183,39 +186,38 @@ def draw() -> str:
     """The picture."""
     graph = imports()
     between = packages(graph)
-    families = [one for one in between if one not in {CORE, CAD, CAM, CHECKER}]  # the last stands by itself
+    ours = {CORE, CAD, CAM, CHECKER, PLANE, *PROCESSES}
+    families = [one for one in between if one not in ours]  # the checker stands by itself
     cam, cam_end = block(CAM, "cam/mechwright_cam: from parts to proven programs", graph, MARGIN)
-    top = cam_end + STEP
-    column = (WIDTH - 3 * MARGIN) / 2
-    small = {
-        CAD: (MARGIN, rooms(graph, CAD), "cam/mechwright_cad"),
-        "plugins": (
-            2 * MARGIN + column,
-            [one.removeprefix("mechwright_") for one in families],
-            "plugins/mechwright_*",
-        ),
+    column = (WIDTH - 4 * MARGIN) / 3
+    left = [MARGIN + n * (column + MARGIN) for n in range(3)]
+    drawn, top, beside = [], cam_end + STEP, {}
+    for package, title in PROCESSES.items():
+        if package in between:
+            height = small(drawn, (left[2], top, column), title, [list(rooms(graph, package))])
+            beside[package] = (left[2], top + height)
+            top += height + STEP
+    words = {
+        CAD: ("mechwright_cad", list(rooms(graph, CAD))),
+        PLANE: ("mechwright_plane", list(rooms(graph, PLANE))),
+        "plugins": ("plugins", [one.removeprefix("mechwright_") for one in families]),
     }
-    texts = {name: wrap(", ".join(words), 26) for name, (_, words, _) in small.items()}
-    height = HEAD + 12 + 15 * max(len(lines) for lines in texts.values())
-    drawn = []
-    for name, (x, _, title) in small.items():
-        drawn.append(frame(x, top, column, height, title))
-        drawn += [
-            f'<text x="{x + 8:g}" y="{top + 32 + 15 * n:g}">{line}</text>'
-            for n, line in enumerate(texts[name])
-        ]
+    every = [names for _, names in words.values()]
+    for x, (title, names) in zip(left, words.values(), strict=True):
+        height = small(drawn, (x, top, column), title, [names, *every])
     core_top = top + height + STEP
     core, end = block(CORE, "core/mechwright: what every plugin may use", graph, core_top)
-    cad_x, plugins_x = MARGIN + column / 2, 2 * MARGIN + column * 1.5
-    arrows = {
-        (CAM, CAD): wide(cad_x, cam_end, cad_x, top),
-        (CAM, CORE): wide(WIDTH / 2, cam_end, WIDTH / 2, core_top),
-        (CAD, CORE): wide(cad_x, top + height, cad_x, core_top),
-        ("plugins", CORE): wide(plugins_x, top + height, plugins_x, core_top),
-    }
+    middle = dict(zip(words, (x + column / 2 for x in left), strict=True))
+    arrows = {(name, CORE): wide(x, top + height, x, core_top) for name, x in middle.items()}
+    arrows |= {(CAM, name): wide(middle[name], cam_end, middle[name], top) for name in (CAD, PLANE)}
+    for package, (x, bottom) in beside.items():
+        arrows |= {
+            (package, name): wide(x + at, bottom, middle[name] + at, top)
+            for name, at in ((CAD, 10.0), (PLANE, 30.0))
+        }
     there = {
         ("plugins" if one in families else one, "plugins" if other in families else other)
-        for one, wanted in between.items()
+        for one, wanted in reduced(between).items()
         for other in wanted
     }
     assert there == arrows.keys(), f"an arrow between packages that has no place: {there ^ arrows.keys()}"  # noqa: S101
@@ -233,6 +235,20 @@ def draw() -> str:
             "</svg>\n",
         ]
     )
+
+
+LETTERS = 15
+"""Characters of a line in a small block."""
+
+
+def small(drawn: list[str], place: tuple[float, float, float], title: str, lists: list[list[str]]) -> float:
+    """Draw a small block at x, y of a width with the first of some lists; gives its height."""
+    x, y, width = place
+    texts = [wrap(", ".join(names), LETTERS) for names in lists]
+    height = HEAD + 12 + 15 * max(len(lines) for lines in texts)
+    drawn.append(frame(x, y, width, height, title))
+    drawn += [f'<text x="{x + 8:g}" y="{y + 32 + 15 * n:g}">{line}</text>' for n, line in enumerate(texts[0])]
+    return height
 
 
 def tip(name: str, colour: str) -> str:

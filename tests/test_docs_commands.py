@@ -60,14 +60,14 @@ def test_lines_are_compared():
 
 
 def test_sessions_have_commands():
-    for name, least in (("tutorial", 8), ("how-to", 12)):
+    for name, least in (("tutorial", 8), ("how-to", 12), ("cutting-through", 1)):
         kinds = [kind for kind, *_ in session(ROOT / "docs" / f"{name}.md")]
         assert kinds.count("run") >= least
         assert "file" in kinds
 
 
 @in_ci
-@pytest.mark.parametrize("name", ["tutorial", "how-to"])
+@pytest.mark.parametrize("name", ["tutorial", "how-to", "cutting-through"])
 def test_what_a_page_shows_is_what_is_printed(name, tmp_path):
     paths = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
     for kind, what, shown in session(ROOT / "docs" / f"{name}.md"):

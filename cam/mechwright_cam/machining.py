@@ -32,13 +32,13 @@ from mechwright_cam.proof.report import Proof
 from mechwright_cam.proof.rules import Rule
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.probing import touches_of, unprobed
 from mechwright_cam.setup.setter import measures_tools, tool_touches, unmeasured
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
 from mechwright_cam.slowed import slowed
+from mechwright_plane.nest import Nest
 
 SLOWED = 3
 """Rounds in which feeds are lowered to what spindle and mills can do: the first does nearly all."""

@@ -25,7 +25,7 @@ from mechwright_cam.planning import plan
 from mechwright_cam.proof.as_made_parts import parts_as_made
 from mechwright_cam.proof.rings import circle_ring
 from mechwright_cam.proof.scene import in_work
-from mechwright_cam.setup.nest import Placed, make_nest
+from mechwright_plane.nest import Placed, make_nest
 
 ANGLE = Loop.polygon([(-30, -20), (30, -20), (30, 0), (5, 0), (5, 20), (-30, 20)])
 

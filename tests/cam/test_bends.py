@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechwright_cam.plane import contour
-from mechwright_cam.plane.bends import Bend, biarc
-from mechwright_cam.plane.leads import half_circles
-from mechwright_cam.plane.path import circle
+from mechwright_plane import contour
+from mechwright_plane.bends import Bend, biarc
+from mechwright_plane.leads import half_circles
+from mechwright_plane.path import circle
 
 B = (8.0, 6.0)
 AHEAD = math.atan2(6.0, 8.0)

@@ -12,8 +12,8 @@ from planning_parts import job, lobes, part
 from planning_simulation import motions
 
 from mechwright.contracts.part import Profile
-from mechwright_cam.plane.buffers import THINNING, buffered
 from mechwright_cam.planning import plan
+from mechwright_plane.buffers import THINNING, buffered
 
 # An opening with a bulge; with a distance of 2.5, GEOS 3.14 leaves a ring that is 1.9 from its walls.
 BULGE = [(4.957, 0.818), (-3.0197, -4.2554), (-1.7939, 1.7778), (-1.7, 2.07), (-1.554, 2.314), (-1.31, 2.58)]

@@ -17,8 +17,8 @@ from mechwright.geometry import Loop
 from mechwright_cam.operations import engagement
 from mechwright_cam.operations.congruent import Copies, Turn, same, turn_between
 from mechwright_cam.operations.engagement import clear
-from mechwright_cam.plane.offsets import ROUGH
 from mechwright_cam.planning import plan
+from mechwright_plane.offsets import ROUGH
 
 MILL = LIBRARY.get("mill-6")
 HOOK = [(6.0, -4.0), (18.0, -4.0), (18.0, 9.0), (10.0, 9.0), (10.0, 4.0), (6.0, 4.0)]

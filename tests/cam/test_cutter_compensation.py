@@ -19,13 +19,13 @@ from mechwright.plugins.host import host
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.operations.entry import bore_lead, enters, lead_to, offsets_of
-from mechwright_cam.plane.contour import offset_contour
-from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Rapid
 from mechwright_cam.proof.paths import Paths, Pieces
 from mechwright_cam.setup.job import LEAST_TURN, Job
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_plane.contour import offset_contour
+from mechwright_plane.offsets import BIAS, FIT, grow, rings
 
 TABS = {"method": "tabs", "tabs": 2}
 

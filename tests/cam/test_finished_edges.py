@@ -22,8 +22,8 @@ from mechwright_cam.pages.picture import plan_view
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.setup.lay_out import make_job
-from mechwright_cam.setup.nest import Placed, make_nest
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_plane.nest import Placed, make_nest
 
 BAR = {"finished": ["front", "rear"]}
 VICE = {"method": "vice"}

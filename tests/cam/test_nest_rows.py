@@ -12,8 +12,9 @@ from mechwright.contracts.part import Bore, Instance, Part, Profile
 from mechwright.geometry import Loop, Outline
 from mechwright_cam.operations import channel
 from mechwright_cam.planning import nesting
-from mechwright_cam.setup.nest import moved_feature
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_plane import packing
+from mechwright_plane.nest import moved_feature
 
 
 @pytest.mark.parametrize("count", [2, 3, 5])
@@ -24,7 +25,7 @@ def test_alike_parts_lie_in_one_row_where_the_machine_has_room_for_no_other(coun
     """8 mm apart, with 8 mm beside them: in a row either way."""
     wide, high = width + 8.0, height + 8.0
     for room in ((count * wide, high), (wide, count * high)):
-        found = nesting._open([(width, height)] * count, 8.0, turn, room)
+        found = packing.open_layout([(width, height)] * count, 8.0, turn, room)
         assert (found.width + 8.0, found.height + 8.0) == pytest.approx(room, abs=1e-6)
 
 

@@ -31,9 +31,9 @@ from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
 from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, prepare
 from mechwright_cam.setup.lay_out import make_job
-from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import settings_of
+from mechwright_plane.nest import Nest, Placed, make_nest, moved_feature
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAIR = 'format = 1\nfamily = "elliptic-gears"\nname = "pair"\n[parameters]\nteeth = 21\n'

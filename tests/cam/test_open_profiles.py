@@ -24,9 +24,9 @@ from mechwright_cad.exporters import dxf
 from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.planning.setups import lay_out_setups
 from mechwright_cam.setup.lay_out import make_job
-from mechwright_cam.setup.nest import moved_feature
 from mechwright_cam.setup.sides import sides
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_plane.nest import moved_feature
 
 OUTSIDE = Profile("outside", rounded_box(60, 40, 6), "outside", 0, 6.0)
 BENT = (Line((-40.0, -8.0), (0.0, -8.0)), Arc((0.0, 2.0), 10.0, -math.pi / 2, 1.2))

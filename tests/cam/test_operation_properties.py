@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from random_outcomes import Outcome, named, run, without
 from random_parts import OPERATIONS
 
-from mechwright_cam.plane.contour import LEFT
+from mechwright_plane.contour import LEFT
 
 REASON = re.compile(r"(error \[cam\.[a-z-]+\] )?(cam\.[a-z_.]+: |part plate)")
 """How the reasons of planning begin: with the key of the design file, or with the part."""

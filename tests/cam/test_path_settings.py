@@ -22,12 +22,12 @@ from mechwright.geometry import Loop
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
-from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.reach import closing
 from mechwright_cam.planning import Assignments, choose_tools, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings, PathSettings
 from mechwright_cam.shop.table import settings_of
+from mechwright_plane.arcfit import fit
+from mechwright_plane.reach import closing
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ZONES = [(0.0, 0.003), (0.001, 0.004), (0.002, 0.002), (0.0045, 0.0045), (0.0, 0.008), (0.0045, 0.008)]

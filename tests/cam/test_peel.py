@@ -12,8 +12,8 @@ from mechwright.contracts.part import Part, is_outside
 from mechwright_cam.machining import Machined, machine
 from mechwright_cam.operations.engagement import engagements
 from mechwright_cam.operations.peel import AHEAD, BACK, Peel, step_of
-from mechwright_cam.plane.offsets import densified
 from mechwright_cam.program.moves import FeedArc
+from mechwright_plane.offsets import densified
 
 
 def made(of: Part, *tools: str, **settings: object) -> Machined:

@@ -16,9 +16,9 @@ from mechwright_cam.operations.layer import NEARLY, Layer
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.rates import Rates
 from mechwright_cam.operations.runs import Cavity, Run, write_levels
-from mechwright_cam.plane.path import circle, polyline
 from mechwright_cam.program.moves import Feed, FeedArc, Rapid
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_plane.path import circle, polyline
 
 RATES = Rates(10_000, 1000, 500, 250, 5000, 0.03, 1000)
 

@@ -14,11 +14,11 @@ from mechwright.errors import DesignError, MechwrightError, ToolError
 from mechwright.geometry import Loop
 from mechwright_cam.operations.choice import roomy_mills
 from mechwright_cam.operations.recess import without_skin
-from mechwright_cam.plane.reach import closing, remainder
 from mechwright_cam.planning import choose_tools, lay_out, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import ToolKind
+from mechwright_plane.reach import closing, remainder
 
 
 def names(of, **changes):

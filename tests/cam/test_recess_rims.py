@@ -14,11 +14,11 @@ from mechwright.contracts.part import Part, Pocket, Profile
 from mechwright.errors import MechwrightError
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_cam.operations.clearing import stays_inside
-from mechwright_cam.plane.leads import best_start
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.shop.library import load_library
 from mechwright_cam.shop.settings import CamSettings
+from mechwright_plane.leads import best_start
 
 LIBRARY = load_library()
 RIM = 24.0

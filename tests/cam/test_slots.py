@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mechwright_cam.operations.channel import FILLS, fills_a_slot
-from mechwright_cam.plane.offsets import BIAS, ROUGH, grow, simplified, thinned
-from mechwright_cam.plane.reach import (
+from mechwright_plane.offsets import BIAS, ROUGH, grow, simplified, thinned
+from mechwright_plane.reach import (
     ROUGHLY,
     closing,
     leaves_at_most,

@@ -14,9 +14,9 @@ from planning_parts import bore, job, lobes, part
 from mechwright_cam.operations import thin_cuts
 from mechwright_cam.operations.pen import AIR
 from mechwright_cam.operations.thin_cuts import SHARES, split_by_engagement
-from mechwright_cam.plane.path import polyline
 from mechwright_cam.planning import plan
 from mechwright_cam.program.moves import Feed, FeedArc
+from mechwright_plane.path import polyline
 
 RADIUS = 1.5
 LINE = polyline([(0.0, 0.0), (20.0, 0.0)])

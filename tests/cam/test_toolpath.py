@@ -7,11 +7,11 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mechwright_cam.plane import runs
-from mechwright_cam.plane.arcfit import fit, fit_all
-from mechwright_cam.plane.offsets import SPARE, grow, pieces, rings
-from mechwright_cam.plane.path import Path, arc, circle, line, polyline
-from mechwright_cam.plane.runs import GREATEST_RADIUS, LONGEST_TURN
+from mechwright_plane import runs
+from mechwright_plane.arcfit import fit, fit_all
+from mechwright_plane.offsets import SPARE, grow, pieces, rings
+from mechwright_plane.path import Path, arc, circle, line, polyline
+from mechwright_plane.runs import GREATEST_RADIUS, LONGEST_TURN
 
 
 def wavy(n, teeth, depth, radius=40.0):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.wedges import TOUCH, into_wedges
-from mechwright_cam.plane.offsets import BIAS, grow, rings
+from mechwright_plane.offsets import BIAS, grow, rings
 
 
 def wedge(half_angle: float) -> shapely.Polygon:

@@ -21,7 +21,6 @@ from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.machining import Machining, machine
 from mechwright_cam.operations.channel import outside_mills
 from mechwright_cam.pages.setup_sheet import setup_html
-from mechwright_cam.plane.offsets import BIAS
 from mechwright_cam.planning import choose_tools, plan
 from mechwright_cam.program.moves import FeedArc
 from mechwright_cam.setup.lay_out import make_job
@@ -30,6 +29,7 @@ from mechwright_cam.shop.table import settings_of
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.parameters import GenevaParams
 from mechwright_geneva.parts.parts import parts_of
+from mechwright_plane.offsets import BIAS
 
 ROOT = Path(__file__).parents[2]
 LIBRARY = load_library(None)

@@ -16,10 +16,10 @@ from mechwright_cam.operations.engagement import HELIX
 from mechwright_cam.operations.layer import WORTH_A_TOOL, Layer
 from mechwright_cam.operations.recess import is_recess
 from mechwright_cam.operations.zone import CUSP, Zone
-from mechwright_cam.plane.offsets import ROUGH, grow, polygons
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import ROUGH, grow, polygons
 
 
 class Adaptive(Clear):

@@ -25,12 +25,12 @@ from mechwright_cam.operations.finishing import (
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
-from mechwright_cam.plane.leads import half_circles
-from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, printed, round_from_right, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Rapid
 from mechwright_cam.setup.depths import bores, bottom_of, floor_allowance, through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.leads import half_circles
+from mechwright_plane.path import CIRCLE_BIAS, Path, arc, printed, round_from_right, rounded
 
 TIGHTEST = 0.9
 """A mill up to this share still turns a helix; beyond, it would be a drill."""

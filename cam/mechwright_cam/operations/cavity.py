@@ -6,7 +6,7 @@ import shapely
 
 from mechwright.geometry.segments import Point
 from mechwright_cam.operations.pen import Pen, levels
-from mechwright_cam.plane.path import Path, circle
+from mechwright_plane.path import Path, circle
 
 
 @dataclass(frozen=True)

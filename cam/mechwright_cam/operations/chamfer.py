@@ -14,12 +14,12 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.pointed import DetailOperation, spread
-from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.offsets import BIAS, FIT, grow, rings
-from mechwright_cam.plane.path import Path
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.vice import CLAMP_GAP
 from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_plane.arcfit import fit
+from mechwright_plane.offsets import BIAS, FIT, grow, rings
+from mechwright_plane.path import Path
 
 BELOW = (0.3, 0.1)
 """How far a chamfer mill's tip stands below the chamfer, mm, tried in this order: its very tip cuts badly."""

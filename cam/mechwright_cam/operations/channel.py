@@ -16,13 +16,13 @@ import shapely
 
 from mechwright.errors import DesignError
 from mechwright_cam.operations.zone import SLACK
-from mechwright_cam.plane.buffers import buffered
-from mechwright_cam.plane.offsets import ROUGH, filled, grow, polygons, simplified, thinned
-from mechwright_cam.plane.reach import ROUGHLY, closing, roughly_swollen
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.vice import can_be_clamped, surrounding_stock
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.buffers import buffered
+from mechwright_plane.nest import Nest
+from mechwright_plane.offsets import ROUGH, filled, grow, polygons, simplified, thinned
+from mechwright_plane.reach import ROUGHLY, closing, roughly_swollen
 
 LEAST_FRAME = 1.0
 """Least width of the frame that tabs end in, mm."""

@@ -12,13 +12,13 @@ from mechwright.errors import ToolError
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.entry import lead_length
-from mechwright_cam.plane.offsets import ROUGH, areas, grow
-from mechwright_cam.plane.path import rounded
-from mechwright_cam.plane.reach import closing, leaves_at_most, leaves_much_more
 from mechwright_cam.setup.job import Job, wear_margin
 from mechwright_cam.shop.cutter import cutter, makes_floor
 from mechwright_cam.shop.settings import CamSettings, PathSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import ROUGH, areas, grow
+from mechwright_plane.path import rounded
+from mechwright_plane.reach import closing, leaves_at_most, leaves_much_more
 
 REACH_SHARE = 1.5
 """Of both tolerances of walls together, what a larger cutter may leave in their corners besides."""

@@ -29,11 +29,11 @@ from mechwright_cam.operations.recess_zone import recess_zone
 from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock, combined_stock
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.offsets import ROUGH, areas, grow, polygons, swept
-from mechwright_cam.plane.reach import PRECISION
 from mechwright_cam.setup.depths import bottom_of, floor_allowance
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import ROUGH, areas, grow, polygons, swept
+from mechwright_plane.reach import PRECISION
 
 OPENED = 0.05
 """Share of a recess that has to be open from below before it is cut in two layers for it."""

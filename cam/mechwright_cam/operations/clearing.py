@@ -24,9 +24,11 @@ from mechwright_cam.operations.runs import Cavity, Run, write_levels, write_ring
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.thin_cuts import Stretch, split_by_engagement
 from mechwright_cam.operations.zone import CUSP, SLACK, Zone
-from mechwright_cam.plane.arcfit import fit_all
-from mechwright_cam.plane.buffers import buffered
-from mechwright_cam.plane.offsets import (
+from mechwright_cam.shop.cutter import cutter
+from mechwright_cam.shop.tool import Tool
+from mechwright_plane.arcfit import fit_all
+from mechwright_plane.buffers import buffered
+from mechwright_plane.offsets import (
     FINE,
     ROUGH,
     Piece,
@@ -39,9 +41,7 @@ from mechwright_cam.plane.offsets import (
     rings,
     without_slits,
 )
-from mechwright_cam.plane.path import Path
-from mechwright_cam.shop.cutter import cutter
-from mechwright_cam.shop.tool import Tool
+from mechwright_plane.path import Path
 
 SLIVER = 0.02
 """Half the width of stock that roughing does not bother with, mm: a tenth of the usual allowance."""

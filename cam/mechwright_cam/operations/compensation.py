@@ -31,13 +31,13 @@ from mechwright_cam.operations.finishing import finish_heights
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.contour import offset_contour
-from mechwright_cam.plane.leads import middle_of_longest
-from mechwright_cam.plane.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings
-from mechwright_cam.plane.path import Path, rounded
-from mechwright_cam.plane.places import STEP, candidates, centres, heading_at
 from mechwright_cam.setup.job import LEAST_TURN, Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.contour import offset_contour
+from mechwright_plane.leads import middle_of_longest
+from mechwright_plane.offsets import ROUGH, densified, fit_tolerance, grow, pieces, rings
+from mechwright_plane.path import Path, rounded
+from mechwright_plane.places import STEP, candidates, centres, heading_at
 
 TAB_GAP = 0.05
 """Air between a tab and the largest tool allowed, beside it and above it, mm."""

@@ -16,9 +16,9 @@ from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.cavity import Cavity, Pass
 from mechwright_cam.operations.engagement import clear
-from mechwright_cam.plane.offsets import ROUGH, areas
-from mechwright_cam.plane.path import Path, arc, line, rounded
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import ROUGH, areas
+from mechwright_plane.path import Path, arc, line, rounded
 
 COPY = 10 * TOLERANCES.closure
 """Corners of copies agree to this, mm: rounding of the turn on a part of a metre, and no drawing is finer."""

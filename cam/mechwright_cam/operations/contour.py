@@ -21,13 +21,13 @@ from mechwright_cam.operations.layer import Layer, cut_layers
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.path import DECIMALS, NOISE
-from mechwright_cam.plane.reach import closing
 from mechwright_cam.setup.depths import through
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.holding import Stock as Plate
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.nest import Nest
+from mechwright_plane.path import DECIMALS, NOISE
+from mechwright_plane.reach import closing
 
 ROUGHING_SHARE = 0.15
 """Largest roughing mill in shares of the part's narrow side: a larger one turns too much stock into chips."""

@@ -8,10 +8,10 @@ from mechwright.geometry.segments import Point
 from mechwright_cam.operations.entry import bore_lead, offsets_of
 from mechwright_cam.operations.finishing import bore_heights
 from mechwright_cam.operations.pen import Pen
-from mechwright_cam.plane.path import CIRCLE_BIAS, Path, arc, line, round_from_right, rounded
 from mechwright_cam.program.moves import Feed
 from mechwright_cam.setup.depths import bottom_of
 from mechwright_cam.setup.job import Job
+from mechwright_plane.path import CIRCLE_BIAS, Path, arc, line, round_from_right, rounded
 
 
 class ContourWriter:

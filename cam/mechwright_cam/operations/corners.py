@@ -7,10 +7,10 @@ import shapely
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.offsets import swept
-from mechwright_cam.plane.reach import remainder
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import SAME_RADIUS
+from mechwright_plane.offsets import swept
+from mechwright_plane.reach import remainder
 
 MOSTLY = 0.9
 """A recess of which the mills reach less than this is hardly what was drawn."""

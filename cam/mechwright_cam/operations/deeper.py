@@ -12,7 +12,7 @@ import shapely
 
 from mechwright_cam.operations.clearing import Roughing
 from mechwright_cam.operations.runs import Cavity
-from mechwright_cam.plane.offsets import ROUGH
+from mechwright_plane.offsets import ROUGH
 
 ALIKE = ROUGH
 """Places are the same if what only one of them has is no wider than this in the mean, mm."""

@@ -7,10 +7,10 @@ from mechwright.geometry.segments import Point
 from mechwright.standards.screws import screw_sizes
 from mechwright_cam.operations.pen import APPROACH
 from mechwright_cam.operations.rates import rates
-from mechwright_cam.plane.path import printed, rounded
 from mechwright_cam.program.moves import Drill, Move, Rapid
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_plane.path import printed, rounded
 
 SPOT = 0.6
 """Diameter of the spot in diameters of the drill: wider than its web, and gone with the hole."""

@@ -35,9 +35,9 @@ from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.cavity import Cavity, Pass
 from mechwright_cam.operations.choice import entry_place
-from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.offsets import ROUGH, densified, grow, polygons, simplified
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.arcfit import fit
+from mechwright_plane.offsets import ROUGH, densified, grow, polygons, simplified
 
 BENDS = (2.2, 1.5, 1.2)
 """Bend radii in cutter radii, in the order of work: below the last, layers are too thin to pay."""

@@ -11,9 +11,9 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.pointed import DetailOperation, spread
-from mechwright_cam.plane.path import polyline
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
+from mechwright_plane.path import polyline
 
 NARROWER = 0.5
 """An engraving line is at least this share of the width it may have."""

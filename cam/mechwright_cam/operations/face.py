@@ -18,10 +18,10 @@ from mechwright_cam.operations.recess_zone import first_look, recess_zone
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import CUSP, Zone
-from mechwright_cam.plane.path import line, polyline, rounded
 from mechwright_cam.setup.depths import floor_allowance
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import cutter
+from mechwright_plane.path import line, polyline, rounded
 
 ROW = 0.7
 """Distance of rows in cutter diameters: the edge that leaves the work then still cuts with its side."""

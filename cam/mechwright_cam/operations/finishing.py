@@ -17,13 +17,13 @@ from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.wedges import into_wedges
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.leads import best_start, lead_shapes, led, with_leads
-from mechwright_cam.plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
-from mechwright_cam.plane.path import CIRCLE_BIAS, Path
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.arcfit import fit
+from mechwright_plane.leads import best_start, lead_shapes, led, with_leads
+from mechwright_plane.offsets import ROUGH, Piece, densified, fit_tolerance, grow, pieces, rings
+from mechwright_plane.path import CIRCLE_BIAS, Path
 
 LEAST_ENGAGEMENT = math.pi / 6
 """A wall is finished with twice the feed of a full cut at most, however little is left: with more, the cusps

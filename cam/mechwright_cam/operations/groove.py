@@ -30,12 +30,12 @@ from mechwright_cam.operations.recess_zone import first_look, floor_mill, floor_
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import SNUG, Zone
-from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.offsets import FIT, densified
-from mechwright_cam.plane.path import Path
 from mechwright_cam.setup.depths import bottom_of, floor_allowance
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.arcfit import fit
+from mechwright_plane.offsets import FIT, densified
+from mechwright_plane.path import Path
 
 PLAY = TOLERANCES.leftover - TOLERANCES.gouge
 """A mill may be so much narrower than its groove, mm: half of it stays on either wall, and the path may be as

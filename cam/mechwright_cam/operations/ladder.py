@@ -24,10 +24,10 @@ from mechwright_cam.operations.clearing import SLIVER
 from mechwright_cam.operations.pen import DOWN
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.operations.steps import slope
-from mechwright_cam.plane.buffers import buffered
-from mechwright_cam.plane.offsets import filled, polygons, simplified
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.buffers import buffered
+from mechwright_plane.offsets import filled, polygons, simplified
 
 COME = 0.6
 """Time to come to a place and to leave it, s: two rapids in each direction with their ramps of speed."""

@@ -22,9 +22,9 @@ from mechwright_cam.operations.steps import Cut, Steps
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.whole_wall import WholeWall
 from mechwright_cam.operations.zone import CUSP, Zone
-from mechwright_cam.plane.offsets import areas, grow, opened, polygons
 from mechwright_cam.shop.cutter import cutter
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import areas, grow, opened, polygons
 
 WORTH_A_TOOL = 0.25
 """An intermediate roughing mill is used if it takes this share of what is left; less does not pay."""

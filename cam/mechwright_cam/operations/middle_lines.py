@@ -10,9 +10,9 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright_cam.operations.zone import SNUG, Zone
-from mechwright_cam.plane.arcfit import fit
-from mechwright_cam.plane.offsets import FINE, FIT, ROUGH, densified, grow, polygons
-from mechwright_cam.plane.path import Path
+from mechwright_plane.arcfit import fit
+from mechwright_plane.offsets import FINE, FIT, ROUGH, densified, grow, polygons
+from mechwright_plane.path import Path
 
 PAST = 0.5
 """The mill runs out of an open end by this more than its radius, mm."""

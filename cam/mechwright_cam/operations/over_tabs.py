@@ -6,8 +6,8 @@ import numpy as np
 import shapely
 
 from mechwright.geometry.segments import Point
-from mechwright_cam.plane.path import DECIMALS, Path
 from mechwright_cam.setup.holding import Tab, least_z
+from mechwright_plane.path import DECIMALS, Path
 
 HEIGHT = 0.002
 """How far a straight slope of the path may be off the tab's, mm: less than half of what the proof lets into

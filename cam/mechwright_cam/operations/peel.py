@@ -31,10 +31,10 @@ from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.layer import WORTH_A_TOOL, Layer
 from mechwright_cam.operations.pen import Pen, levels
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.offsets import ROUGH, grow, polygons
-from mechwright_cam.plane.path import Cut, Path, arc, circle, printed
 from mechwright_cam.setup.job import PEELED, Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import ROUGH, grow, polygons
+from mechwright_plane.path import Cut, Path, arc, circle, printed
 
 BACK, AHEAD = math.radians(-120.0), math.radians(90.0)
 """A loop cuts between these directions from the way along the middle: it begins in what is clear already."""

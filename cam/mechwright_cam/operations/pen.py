@@ -10,10 +10,10 @@ from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.over_tabs import lifted_height, over_tabs
 from mechwright_cam.operations.rates import RAMP_SHARE, Rates
-from mechwright_cam.plane.path import Path, polyline, printed, rounded
 from mechwright_cam.program.moves import Feed, FeedArc, Move, Rapid
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.path import Path, polyline, printed, rounded
 
 APPROACH = 1.0
 """Rapids end this far above the stock, mm: thicker than any unevenness of a sawn plate."""

@@ -26,7 +26,10 @@ from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import roomy_mills, run_out
-from mechwright_cam.plane.offsets import (
+from mechwright_cam.setup.depths import bottom_of
+from mechwright_cam.setup.job import LEVEL, Job
+from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import (
     ROUGH,
     areas,
     corners,
@@ -37,10 +40,7 @@ from mechwright_cam.plane.offsets import (
     swept,
     valid_shape,
 )
-from mechwright_cam.plane.reach import opening_keep
-from mechwright_cam.setup.depths import bottom_of
-from mechwright_cam.setup.job import LEVEL, Job
-from mechwright_cam.shop.tool import Tool
+from mechwright_plane.reach import opening_keep
 
 SKIN = 2 * TOLERANCES.flatten
 """A boundary within this of the part's edge is on it, mm: what the chords of both may be off together."""

@@ -22,11 +22,11 @@ from mechwright_cam.operations.choice import (
 from mechwright_cam.operations.compensation import entering
 from mechwright_cam.operations.recess import Layer, Recess, reached_share, recess, walls_of
 from mechwright_cam.operations.zone import SNUG, Zone
-from mechwright_cam.plane.offsets import ROUGH, areas, grow, swept
 from mechwright_cam.setup.depths import bottom_of, through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.cutter import CORNER_SHARE, LEAST_SHARE, makes_floor
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import ROUGH, areas, grow, swept
 
 SCRATCH = 1e-4
 """A mill with a sharper nose that reaches so much of a feature levels it there, if only at its mouth."""

@@ -8,7 +8,7 @@ import shapely
 
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.thin_cuts import Stretch
-from mechwright_cam.plane.path import Path
+from mechwright_plane.path import Path
 
 EASY = 1.5
 """A way down along a ring is so many times as long as the steepest, for the steeper it is the slower."""

@@ -16,11 +16,11 @@ from mechwright_cam.operations.drilling import point_length
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.steps import Steps
 from mechwright_cam.operations.stock import Stock
-from mechwright_cam.plane.path import printed, rounded
 from mechwright_cam.program.moves import Rapid, Tap
 from mechwright_cam.setup.depths import bottom_of, core_of, makes, tapped_deep, thread_in, through
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool, ToolKind
+from mechwright_plane.path import printed, rounded
 
 RUN_UP = 5.0
 """A tap starts so many pitches above the plate, and no less than so many mm: until then spindle and feed run

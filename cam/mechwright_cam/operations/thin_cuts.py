@@ -14,8 +14,8 @@ import shapely
 from mechwright.arrays import Array
 from mechwright_cam.operations.engagement import engagements
 from mechwright_cam.operations.pen import AIR
-from mechwright_cam.plane.offsets import ROUGH, grow
-from mechwright_cam.plane.path import Path
+from mechwright_plane.offsets import ROUGH, grow
+from mechwright_plane.path import Path
 
 SHARES = (1.25, 1.5, 2.0, AIR)
 """Feeds in those of a full cut that stretches may have; finer steps save nothing."""

@@ -9,11 +9,11 @@ from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.pointed import DetailOperation
 from mechwright_cam.operations.tap import lacks
-from mechwright_cam.plane.leads import half_circles
-from mechwright_cam.plane.path import printed, round_from_right
 from mechwright_cam.setup.depths import core_of
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import ToolKind
+from mechwright_plane.leads import half_circles
+from mechwright_plane.path import printed, round_from_right
 
 AROUND = 0.1
 """Air all round a thread mill in its hole, mm."""

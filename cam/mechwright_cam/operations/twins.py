@@ -11,9 +11,9 @@ from mechwright.contracts.part import Feature, Pocket, Profile
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.operations.congruent import Turn, corners_of, turn_between
 from mechwright_cam.operations.recess import is_recess, plan_view
-from mechwright_cam.plane.offsets import ROUGH, areas, simplified
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import widest_mill
+from mechwright_plane.offsets import ROUGH, areas, simplified
 
 SAME = 3 * ROUGH
 """What stands around two copies is the same to this, mm, once it is thinned: it decides on cutters, and no

@@ -10,8 +10,8 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import FINE
-from mechwright_cam.plane.runs import CORNER
+from mechwright_plane.offsets import FINE
+from mechwright_plane.runs import CORNER
 
 TOUCH = TOLERANCES.flatten + FINE / 2
 """A straight move keeps this distance off the wall, mm: what the flattened outline and the last decimal of

@@ -16,11 +16,11 @@ from mechwright_cam.operations.finishing import Finishing
 from mechwright_cam.operations.pen import Pen
 from mechwright_cam.operations.stock import Stock
 from mechwright_cam.operations.zone import Zone
-from mechwright_cam.plane.leads import best_start, lead_shapes
-from mechwright_cam.plane.offsets import ROUGH, grow
-from mechwright_cam.plane.path import Path
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.leads import best_start, lead_shapes
+from mechwright_plane.offsets import ROUGH, grow
+from mechwright_plane.path import Path
 
 FINELY = 0.02
 """Distance of the places of a path that are asked whether they are over a tab, mm: it gets wider by that."""

@@ -19,11 +19,11 @@ import shapely
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.choice import HEAVY, radius_in, roughers
 from mechwright_cam.operations.recess import Layer
-from mechwright_cam.plane.offsets import FINE, ROUGH, grow, simplified, thinned, valid_shape
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.vice import RUN_OUT
 from mechwright_cam.shop.settings import PathSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import FINE, ROUGH, grow, simplified, thinned, valid_shape
 
 SLACK = 0.02
 """Play in the width of a channel, mm, so that the path that opens it lies inside its room."""

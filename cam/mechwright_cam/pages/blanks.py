@@ -28,7 +28,7 @@ class MilledPlates(RawStock):
 
 def _names(part: Part) -> tuple[str, ...]:
     """The parts that are cut from a plate, each once."""
-    from mechwright_cam.setup.nest import Nest
+    from mechwright_plane.nest import Nest
 
     placed = [one.part.name for one in part.placed] if isinstance(part, Nest) else [part.name]
     return tuple(dict.fromkeys(placed))

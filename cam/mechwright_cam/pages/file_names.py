@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 from mechwright.contracts.finding import errors
 from mechwright.pipeline import Build, FileName
 from mechwright_cam.planning.nesting import NEST_NAME
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.probing import PROBE
 from mechwright_cam.setup.setter import LENGTHS, measures_tools
+from mechwright_plane.nest import Nest
 
 if TYPE_CHECKING:
     from mechwright_cam.machining import Machining

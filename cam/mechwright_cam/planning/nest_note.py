@@ -6,9 +6,9 @@ from mechwright.contracts.finding import Finding, Severity
 from mechwright_cam.planning.nesting import MOST, WEB, copies, nest_of
 from mechwright_cam.setup.clamping import rim_margins, widest_channel
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.holding import Stock
 from mechwright_cam.shop.table import JobSettings
+from mechwright_plane.nest import Nest
 
 
 def nest_notes(settings: JobSettings, jobs: Sequence[Job]) -> Iterator[Finding]:

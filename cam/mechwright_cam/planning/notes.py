@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from mechwright.contracts.part import Bore
 from mechwright_cam.operations.drilling import point_length
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
 from mechwright_cam.shop.tool import REAMER_LEAD, Tool
+from mechwright_plane.nest import Nest
 
 
 def lengths_of(job: Job) -> Lengths:

@@ -13,7 +13,6 @@ from mechwright.designs.design import Design
 from mechwright.errors import DesignError, ToolError
 from mechwright.shell import file_word
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import polygons
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.holding_force import holding_findings
 from mechwright_cam.planning.in_hand import from_hand
@@ -26,12 +25,13 @@ from mechwright_cam.planning.uses import uses
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.limits import check_machine
 from mechwright_cam.setup.measured import check_measured
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.estimates import completed, rigidity_of
 from mechwright_cam.shop.library import Library, load_library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.shop_table import shop_of
 from mechwright_cam.shop.table import settings_of
+from mechwright_plane.nest import Nest
+from mechwright_plane.offsets import polygons
 
 FINER = (1.0, 0.5)
 """Finest mills for corners, mm, that are tried where the design says none and with the usual one the parts as

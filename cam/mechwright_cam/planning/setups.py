@@ -22,7 +22,6 @@ from mechwright.contracts.part import Bore, Feature, Part
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline
 from mechwright.geometry.mirror import turned_over, turned_point
-from mechwright_cam.plane.offsets import ROUGH, filled, grow
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.remarks import lay_out, refusal
 from mechwright_cam.setup.clamping import least_margin, widest_channel
@@ -35,6 +34,7 @@ from mechwright_cam.shop.holding import Hold, Stock
 from mechwright_cam.shop.library import Library
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import widest_mill
+from mechwright_plane.offsets import ROUGH, filled, grow
 
 DOWEL_FRAME = 3.0
 """Stock between the channel around the part and a dowel's wall, mm: what holds the tabs."""

@@ -13,8 +13,8 @@ from mechwright_cam.proof.as_made import as_made_sections, wall_sweeps
 from mechwright_cam.proof.off_path import corridor
 from mechwright_cam.proof.scene import Scene
 from mechwright_cam.proof.witness import witnesses
-from mechwright_cam.setup.nest import Nest, Placed
 from mechwright_cam.setup.sides import SIGNS
+from mechwright_plane.nest import Nest, Placed
 
 
 def parts_as_made(scene: Scene) -> list[MadePart]:

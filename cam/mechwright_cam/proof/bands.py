@@ -10,13 +10,13 @@ from mechwright.arrays import Array
 from mechwright.contracts.part import Feature, Pocket, Profile
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import filled
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, grow
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.turned import Frame
 from mechwright_cam.setup.views import SKIN, inside_of
 from mechwright_cam.shop.tool import MILLS
+from mechwright_plane.offsets import filled
 
 LONGEST_RUN_OUT = 3.0
 """The edge of a cutter runs out by so many diameters at most: by its own and, with cutter compensation, by a

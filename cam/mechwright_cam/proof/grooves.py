@@ -8,13 +8,13 @@ import shapely
 
 from mechwright.contracts.part import OpenProfile, Pocket
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import areas, polygons
 from mechwright_cam.proof.bands import Band, floor_of
 from mechwright_cam.proof.plane import ROUND, Shape, grow
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.cutter import cutter, makes_floor
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import areas, polygons
 
 ENTERED = 2 * (TOLERANCES.flatten + ROUND)
 """A groove so much wider than a cutter on either side lets it in, mm: what chords of walls and of closings

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints
-from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.point_segment_distance import Chords
 from mechwright_cam.setup.views import ROUND, Shape, quarter
+from mechwright_plane.buffers import buffered
 
 SNAP = 1e-6
 """Grid for shapes that GEOS cannot put together without one, mm: far below a program's last decimal."""

@@ -21,13 +21,13 @@ from dataclasses import dataclass, field
 import numpy as np
 import shapely
 
-from mechwright_cam.plane.offsets import areas, polygons
 from mechwright_cam.proof.fillets import Fillet, stay
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.plane import Shape, closing, grow
 from mechwright_cam.setup.views import SKIN
 from mechwright_cam.shop.cutter import CORNER_SHARE, LEAST_SHARE, cutter, makes_floor
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import areas, polygons
 
 Layer = tuple[float, Shape]
 

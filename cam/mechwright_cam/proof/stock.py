@@ -13,7 +13,6 @@ from mechwright.arrays import Array, first_of_each
 from mechwright.errors import ProgramError
 from mechwright.geometry.prepared import prepared
 from mechwright_cam.controls.reading.run import Ints, SpindleChange
-from mechwright_cam.plane.buffers import buffered
 from mechwright_cam.proof.bands import stock_shape
 from mechwright_cam.proof.paths import NEAR, Geometries, Paths, Pieces
 from mechwright_cam.proof.plane import Shape, grow, overlay
@@ -21,6 +20,7 @@ from mechwright_cam.proof.swept_area import left
 from mechwright_cam.setup.job import Job
 from mechwright_cam.setup.views import quarter
 from mechwright_cam.shop.cutter import cutter
+from mechwright_plane.buffers import buffered
 
 TOUCH = 0.01
 """Material thinner than this in a tool's way is not met, mm: the leftover limit."""

@@ -17,10 +17,10 @@ import shapely
 from mechwright.contracts.sections import plan_view
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import ROUGH, filled, grow, polygons
 from mechwright_cam.setup.job import PEELED, Job
 from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.tool import widest_mill
+from mechwright_plane.offsets import ROUGH, filled, grow, polygons
 
 STRAP_ROOM = 15.0
 """Rim for a strap, mm: it covers 10, and may stand 5 back from the cut (workshop practice)."""

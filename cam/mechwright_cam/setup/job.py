@@ -28,10 +28,10 @@ from mechwright.contracts.details import Detail, moved
 from mechwright.contracts.part import Feature, Part, is_outside
 from mechwright.geometry.segments import Point
 from mechwright_cam.setup.holding import Clamp, Jaw, Tab, ToeClamp
-from mechwright_cam.setup.nest import moved_feature
 from mechwright_cam.setup.turned import Frame, TurnedOver
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import MILLS, Tool, ToolKind
+from mechwright_plane.nest import moved_feature
 
 LEVEL = 1e-6
 """Heights nearer than this are one, mm: far below the last decimal of a program."""

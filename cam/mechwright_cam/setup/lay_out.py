@@ -14,12 +14,12 @@ from mechwright_cam.setup.clamping import rim_margins
 from mechwright_cam.setup.depths import bores
 from mechwright_cam.setup.holding import Clamp, ToeClamp
 from mechwright_cam.setup.job import PEELED, Job
-from mechwright_cam.setup.nest import Nest, moved_feature
 from mechwright_cam.setup.plate import plate_box
 from mechwright_cam.setup.tabs import lay_tabs
 from mechwright_cam.setup.vice import CLAMP_GAP, lay_jaws
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool, widest_mill
+from mechwright_plane.nest import Nest, moved_feature
 
 _TALL = 0.7
 """In plates of which tabs of the usual height would take more than this share, they are half as high."""

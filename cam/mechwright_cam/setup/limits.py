@@ -16,10 +16,10 @@ from collections.abc import Iterator
 
 from mechwright.contracts.finding import Finding
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.nest import Nest
 
 _ROUND = 10
 """mm: to this a travel that would do is rounded up."""

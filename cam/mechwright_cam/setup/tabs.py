@@ -21,11 +21,11 @@ from mechwright.errors import DesignError
 from mechwright.geometry.prepared import prepared
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import filled, opened
 from mechwright_cam.setup.holding import Tab, _corners, _piece_at, rectangle
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.setup.tab_places import led_out, rows, tab_width
 from mechwright_cam.shop.tool import MILLS, widest_mill
+from mechwright_plane.nest import Nest
+from mechwright_plane.offsets import filled, opened
 
 if TYPE_CHECKING:
     from mechwright_cam.setup.job import Job

@@ -13,9 +13,9 @@ from mechwright.contracts.part import Bore, Part, Profile
 from mechwright.contracts.sections import plan_view, sections
 from mechwright.errors import DesignError
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import filled, opened
 from mechwright_cam.setup.holding import Jaw
 from mechwright_cam.setup.views import SKIN
+from mechwright_plane.offsets import filled, opened
 
 if TYPE_CHECKING:
     from mechwright_cam.setup.job import Job

@@ -49,6 +49,9 @@ class Prefer(Parameters):
     machine: dict[str, Any] = Field(
         default_factory=dict, description="Keys of [machine], for designs with that table."
     )
+    cut: dict[str, Any] = Field(
+        default_factory=dict, description="Keys of [cut], such as measured kerfs; lengths in mm."
+    )
 
 
 class Workshop(Parameters):

@@ -67,7 +67,8 @@ class Shop:
         frame = dict(shop.prefer.machine)
         if plates := self.thicknesses(frame.get("plate_material", FrameKeys().plate_material)):
             frame = {"plates": plates, **frame}
-        return {"cam": over(cam, shop.prefer.cam), "machine": frame}
+        cut = {"cut": shop.prefer.cut} if shop.prefer.cut else {}
+        return {"cam": over(cam, shop.prefer.cam), "machine": frame, **cut}
 
     def thicknesses(self, material: str) -> list[float]:
         """Thicknesses of the plates of a material that are in hand, mm, from the thinnest on."""

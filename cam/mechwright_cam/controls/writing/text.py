@@ -5,7 +5,7 @@ import textwrap
 import unicodedata
 from functools import lru_cache
 
-from mechwright_cam.plane.path import DECIMALS, NOISE
+from mechwright_plane.path import DECIMALS, NOISE
 
 COMMENT_WIDTH = 70
 """Longest comment text: Grbl's line buffer of 80 characters is the shortest of the common controls."""

@@ -7,7 +7,7 @@ from mechwright.geometry.segments import Point
 from mechwright.output import svg
 from mechwright_cam.pages.picture.frame import Frame
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
+from mechwright_plane.nest import Nest
 
 LETTER_WIDTH = 0.58
 """Width of a letter in its height, on average, generously."""

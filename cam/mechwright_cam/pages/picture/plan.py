@@ -19,7 +19,7 @@ from mechwright_cam.program.moves import Program
 from mechwright_cam.setup.clamping import SCREW, strap_box
 from mechwright_cam.setup.holding import Tab
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
+from mechwright_plane.nest import Nest
 
 THREAD_ENDS = (math.radians(100.0), math.radians(10.0))
 """A thread's circle is drawn from here on for three quarters of a turn, as drawings do (ISO 6410-1)."""

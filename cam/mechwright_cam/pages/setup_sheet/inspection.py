@@ -7,8 +7,8 @@ from mechwright.contracts.general_tolerances import general_length
 from mechwright.contracts.part import Bore, Feature, Pocket
 from mechwright.errors import DesignError
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
+from mechwright_plane.nest import Nest
 
 GENERAL = "ISO 2768-m"
 """What holds where the part says no tolerance."""

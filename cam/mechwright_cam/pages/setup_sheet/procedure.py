@@ -28,8 +28,8 @@ from mechwright_cam.pages.setup_sheet.several import (
 from mechwright_cam.pages.setup_sheet.tapping import about_taps
 from mechwright_cam.pages.setup_sheet.zero import plane, second_plane
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
+from mechwright_plane.nest import Nest
 
 TO_SIZE = "Set D, and bring the part to size"
 BEFORE = "Look at the machine and its control"

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from mechwright.contracts.part import Bore
 from mechwright_cam.setup.job import Job
-from mechwright_cam.setup.nest import Nest
 from mechwright_cam.shop.lengths import Lengths
+from mechwright_plane.nest import Nest
 
 
 def origin_words(job: Job) -> str:

@@ -27,10 +27,10 @@ from mechwright_cam.operations.clearing import COARSE_FROM
 from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.engagement import clear
 from mechwright_cam.operations.layer import Layer
-from mechwright_cam.plane.offsets import grow
-from mechwright_cam.plane.path import Path, arc, rounded
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.offsets import grow
+from mechwright_plane.path import Path, arc, rounded
 
 SURE = 0.9
 """The pitch is planned for this share of the engagement asked for: loops are entered at a wall, where the

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cam.plane.path import Path, arc, printed
+from mechwright_plane.path import Path, arc, printed
 
 CANDIDATES = 120
 """Places of a ring at which leads are tried."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cam.plane.runs import GREATEST_RADIUS
+from mechwright_plane.runs import GREATEST_RADIUS
 
 FLAT = 1e-3
 """A line or arc may leave its node under this angle to the heading there, rad: where the control does not

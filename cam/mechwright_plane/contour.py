@@ -25,9 +25,9 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cam.plane.bends import FLAT, SHARP, Bend, along, biarc, left_of, meeting, places, wrapped
-from mechwright_cam.plane.path import Cut, Path, arc, line, printed
-from mechwright_cam.plane.runs import over_chord, prepared_polylines, runs_of
+from mechwright_plane.bends import FLAT, SHARP, Bend, along, biarc, left_of, meeting, places, wrapped
+from mechwright_plane.path import Cut, Path, arc, line, printed
+from mechwright_plane.runs import over_chord, prepared_polylines, runs_of
 
 SCRAP = 0.1
 """Pieces of a ring below this length, mm, may be what is left of a corner."""

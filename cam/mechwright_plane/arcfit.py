@@ -1,4 +1,4 @@
-"""Fit a polyline with lines and arcs, as few as :mod:`mechwright_cam.plane.runs` finds."""
+"""Fit a polyline with lines and arcs, as few as :mod:`mechwright_plane.runs` finds."""
 
 import itertools
 import math
@@ -8,8 +8,8 @@ import numpy as np
 
 from mechwright.arrays import Array
 from mechwright.geometry.segments import Point
-from mechwright_cam.plane.path import Cut, Path, arc, line, printed
-from mechwright_cam.plane.runs import over_chord, prepared_polylines, runs_of
+from mechwright_plane.path import Cut, Path, arc, line, printed
+from mechwright_plane.runs import over_chord, prepared_polylines, runs_of
 
 LAST_DIGIT = 1e-4
 """A vertex this near to the line past it is one of rounding, mm: no bend of the path."""

@@ -13,6 +13,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Protocol
 
 import numpy as np
 import shapely
@@ -20,8 +21,7 @@ from numpy.typing import NDArray
 
 from mechwright.arrays import Array
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.buffers import buffered
-from mechwright_cam.shop.settings import PathSettings
+from mechwright_plane.buffers import buffered
 
 FINE = 0.0003
 """Chord error of an offset, mm: a part of the arc-fit tolerance that does not show in its result."""
@@ -32,7 +32,15 @@ ROUGH = 0.005
 """Chord error of a roughing offset, mm, where it leaves stock: half of what its arcs may deviate."""
 
 
-def fit_tolerance(path: PathSettings) -> float:
+class Exactness(Protocol):
+    """How exact a path has to be."""
+
+    @property
+    def tolerance(self) -> float:
+        """How far a path may stray from the parallel of the flattened outline, mm."""
+
+
+def fit_tolerance(path: Exactness) -> float:
     """What is left of the tolerance for the fit, mm, after the chords of the offset and their thinning."""
     return path.tolerance - 2 * FINE
 

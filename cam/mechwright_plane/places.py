@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright_cam.plane.leads import CANDIDATES
-from mechwright_cam.plane.path import Path, Place, place_on
+from mechwright_plane.leads import CANDIDATES
+from mechwright_plane.path import Path, Place, place_on
 
 STEP = 0.1
 """Places at which a way is looked at, mm."""

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.geometry.prepared import prepared
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.plane.offsets import ROUGH, grow, polygons, thinned
+from mechwright_plane.offsets import ROUGH, grow, polygons, thinned
 
 SPACING = 0.1
 """Of places on walls, mm: where a cutter of 3 mm or more just does not pass between two walls, and leaves all

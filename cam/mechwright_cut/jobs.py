@@ -1,0 +1,243 @@
+"""What is cut out of one sheet: copies of parts that are alike in process, material and thickness.
+
+A part is cut as its outline, but for holes that are made larger afterwards, or drilled.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import shapely
+
+from mechwright.contracts.details import Chamfer, Engraving, Thread
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.errors import DesignError
+from mechwright.geometry import Arc, Loop, Outline, circle
+from mechwright.geometry.segments import Point
+from mechwright.tolerances import TOLERANCES
+from mechwright_cut.settings.cut_settings import CutSettings
+from mechwright_cut.settings.figures import Kerf, Process
+from mechwright_plane.packing import plate_layout
+
+MOST = 400
+"""Copies on one sheet at most: their number comes from a file, and each costs time."""
+PIERCE = 1.5
+"""A pierce stays so many kerfs off every wall: it is wider than the cut."""
+BESIDE = 1.5
+"""The start hole of a wire keeps so far off the contour, mm: it is drilled, and may be off its place."""
+LEAST_LEAD = 1.0
+"""Least radius of a lead by default, mm."""
+MARK = 1.0
+"""Half the length of the strokes of a cross that marks a hole, mm."""
+
+
+@dataclass(frozen=True)
+class CutPart:
+    """A part as it is cut through.
+
+    Parameters
+    ----------
+    part
+        As drawn.
+    outline
+        As it is cut.
+    finishing
+        What is done afterwards, each in a few words.
+    spots
+        Centres of holes that are marked and drilled, mm.
+    """
+
+    part: Part
+    outline: Outline
+    finishing: tuple[str, ...] = ()
+    spots: tuple[Point, ...] = ()
+
+    @property
+    def strokes(self) -> list[tuple[Point, ...]]:
+        """Polylines that are engraved: marks, and crosses of holes to drill."""
+        found = [s for d in self.part.details if isinstance(d, Engraving) for s in d.strokes]
+        for x, y in self.spots:
+            found += [((x - MARK, y), (x + MARK, y)), ((x, y - MARK), (x, y + MARK))]
+        return found
+
+
+@dataclass(frozen=True)
+class CutPiece:
+    """One copy on the sheet: turned by ``angle``, rad, then moved, mm."""
+
+    cut: CutPart
+    label: str
+    x: float
+    y: float
+    angle: float
+
+    @cached_property
+    def outline(self) -> Outline:
+        """Where it lies on the sheet."""
+        return self.cut.outline.moved(self.x, self.y, self.angle)
+
+    @cached_property
+    def strokes(self) -> list[list[Point]]:
+        """What is engraved on it, where it lies on the sheet."""
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        return [
+            [(c * x - s * y + self.x, s * x + c * y + self.y) for x, y in stroke]
+            for stroke in self.cut.strokes
+        ]
+
+
+@dataclass(frozen=True)
+class CutJob:
+    """One sheet."""
+
+    name: str
+    process: Process
+    material: str
+    thickness: float
+    kerf: Kerf
+    settings: CutSettings
+    pieces: tuple[CutPiece, ...]
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Of the sheet, mm; its lower left corner is X0 Y0."""
+        return self.settings.sheet.length, self.settings.sheet.width
+
+
+def fitted_bores(part: Part) -> dict[int, Bore]:
+    """Number of an opening of the outline to the bore with a fit that it is."""
+    found: dict[int, Bore] = {}
+    for number, loop in enumerate(part.outline.inner if part.outline else ()):
+        arc = loop.segments[0]
+        if loop.is_circle and isinstance(arc, Arc):
+            for bore in part.features:
+                if isinstance(bore, Bore) and math.dist(bore.centre, arc.centre) <= TOLERANCES.closure:
+                    found |= {number: bore} if bore.fit else {}
+    return found
+
+
+def keeps_limits(process: Process, bore: Bore) -> bool:
+    """Whether a process keeps the limits of a hole's fit."""
+    return bore.fit is not None and bore.fit.upper - bore.fit.lower >= 2 * process.holes - TOLERANCES.slack
+
+
+def cut_part(part: Part, process: Process, settings: CutSettings) -> CutPart:
+    """The part as a process cuts it, with what is done afterwards."""
+    assert part.outline is not None  # noqa: S101 - plates alone are cut
+    fits, inner, spots, after = fitted_bores(part), [], [], list[str]()
+    for number, loop in enumerate(part.outline.inner):
+        arc = loop.segments[0]
+        if not (loop.is_circle and isinstance(arc, Arc)):
+            inner.append(loop)
+            continue
+        diameter, bore = 2 * arc.radius, fits.get(number)
+        said = f"the hole of {diameter:g} mm at ({arc.centre[0]:.3f}, {arc.centre[1]:.3f})"
+        if bore is not None and bore.fit is not None and not keeps_limits(process, bore):
+            said = f"{bore.name} at ({bore.centre[0]:.3f}, {bore.centre[1]:.3f})"
+            if settings.fits == "bush":
+                diameter = round(bore.fit.size + 2 * settings.bush, 3)
+                after.append(f"bond a bush of {diameter:g} x {bore.fit.text} into {said}")
+            else:
+                diameter = round(bore.diameter - process.pilot, 3)
+                after.append(f"ream {said} to {bore.fit.text}")
+        if diameter < process.least_hole(part.thickness) and settings.small_holes == "spot":
+            spots.append(arc.centre)
+            after.append(f"drill {said}: {diameter:g} mm, marked with a cross")
+            continue
+        if diameter != 2 * arc.radius:
+            loop = Loop((circle(arc.centre, diameter / 2, clockwise=True),))
+        inner.append(loop)
+    for detail in part.details:
+        if isinstance(detail, Thread):
+            after.append(f"tap {detail.designation} at ({detail.centre[0]:.3f}, {detail.centre[1]:.3f})")
+        elif isinstance(detail, Chamfer):
+            after.append(f"break the edge {detail.name}: {detail.width:g} mm x 45°")
+        elif not process.engraves:
+            after.append(f"mark {detail.name} by hand")
+    return CutPart(
+        part, Outline(part.outline.outer, tuple(inner), part.outline.deviation), tuple(after), tuple(spots)
+    )
+
+
+def recesses(part: Part) -> list[str]:
+    """Names of what does not go through the plate: no beam makes it."""
+    return [
+        one.name
+        for one in part.features
+        if (isinstance(one, Pocket) or one.top > TOLERANCES.closure or one.depth < part.thickness - 1e-6)
+        and isinstance(one, Pocket | Bore | Profile)
+    ]
+
+
+def lead_radius(settings: CutSettings, kerf: float) -> float:
+    """Radius of leads, mm."""
+    return settings.lead or max(2 * kerf, LEAST_LEAD)
+
+
+def gap_of(settings: CutSettings, kerf: Kerf, process: Process, thickness: float) -> float:
+    """Least distance between two parts, mm: a web between the kerfs, or room for a pierce."""
+    if settings.sheet.gap is not None:
+        return settings.sheet.gap
+    if process.name == "wire":
+        return round(settings.start_hole + 2 * BESIDE + 1, 2)
+    lead = lead_radius(settings, kerf.width) + PIERCE * kerf.width + kerf.width
+    return round(max(process.least_web(thickness) + 2 * kerf.width, 2 * lead), 2)
+
+
+def nested(
+    name: str, parts: Iterable[CutPart], process: Process, kerf: Kerf, settings: CutSettings
+) -> CutJob:
+    """The copies of some parts on one sheet; raises DesignError where they do not fit.
+
+    The largest first, each turned by 90 degrees where it then lies lower.
+    """
+    items: list[tuple[CutPart, str]] = []
+    for one in parts:
+        count = max(1, len(one.part.instances))
+        items += [(one, one.part.name if count == 1 else f"{one.part.name} no {n + 1}") for n in range(count)]
+    if len(items) > MOST:
+        raise DesignError(
+            f"cut.sheet: {len(items)} copies on one sheet, at most {MOST}; cut fewer parts at once"
+        )
+    sizes = {id(one): _size(one.outline) for one, _ in items}
+    items.sort(key=lambda item: (-max(sizes[id(item[0])]), -min(sizes[id(item[0])])))
+    first = items[0][0].part
+    gap = gap_of(settings, kerf, process, first.thickness)
+    rim = settings.sheet.margin + gap / 2
+    wanted = [sizes[id(one)] for one, _ in items]
+    room = settings.sheet.length - 2 * rim, settings.sheet.width - 2 * rim
+    layout = plate_layout(wanted, *room, gap, True) if min(room) > 0 else None
+    if layout is None:
+        raise DesignError(_too_small(name, wanted, gap, rim, settings))
+    pieces = []
+    for (one, label), (x, y, turned) in zip(items, layout.spots, strict=True):
+        x0, y0, _, y1 = one.outline.bounds
+        (left, low), angle = ((-y1, x0), math.pi / 2) if turned else ((x0, y0), 0.0)
+        pieces.append(CutPiece(one, label, rim + x - left, rim + y - low, angle))
+    return CutJob(name, process, first.material, first.thickness, kerf, settings, tuple(pieces))
+
+
+def _size(outline: Outline) -> tuple[float, float]:
+    x0, y0, x1, y1 = outline.bounds
+    return x1 - x0, y1 - y0
+
+
+def _too_small(
+    name: str, sizes: Sequence[tuple[float, float]], gap: float, rim: float, settings: CutSettings
+) -> str:
+    sheet, scale = settings.sheet, 1.05
+    while True:
+        length, width = math.ceil(scale * sheet.length), math.ceil(scale * sheet.width)
+        if plate_layout(sizes, max(length - 2 * rim, 1e-3), max(width - 2 * rim, 1e-3), gap, True):
+            return (
+                f"cut.sheet: the {len(sizes)} parts of {name} do not fit on {sheet.length:g} x "
+                f"{sheet.width:g} mm with {gap:g} mm between them; set "
+                f"cut.sheet = {{ length = {length}, width = {width} }}"
+            )
+        scale *= 1.1
+
+
+def target(piece: CutPiece) -> shapely.Polygon:
+    """The piece as a polygon on the sheet, within the flattening tolerance."""
+    return piece.outline.polygon()

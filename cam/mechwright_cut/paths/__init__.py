@@ -1,0 +1,1 @@
+"""Paths of the beam: parallels of contours, leads, micro-joints, and the order of the cuts."""

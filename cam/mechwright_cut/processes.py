@@ -1,0 +1,81 @@
+"""Laser, waterjet, plasma, wire and a service as processes that ``process`` names."""
+
+from collections.abc import Sequence
+
+from mechwright.contracts.part import Part
+from mechwright.pipeline import Build
+from mechwright.pipeline.process import Process
+
+
+class Cut(Process):
+    """What processes that cut through have in common."""
+
+    name = ""
+    title = ""
+
+    def refuses(self, part: Part, build: Build) -> str | None:
+        """Recesses, materials that must not be cut, thickness, shapes that overlap."""
+        from mechwright_cut.rules.part_rules import refused
+        from mechwright_cut.settings.cut_settings import SERVICE
+        from mechwright_cut.settings.cut_table import cut_settings
+
+        settings = cut_settings(build.design)
+        kind = settings.kind(self.name, part.material)
+        return refused(part, kind, settings, service=self.name == SERVICE)
+
+    def loses(self, part: Part, build: Build) -> Sequence[str]:
+        """Fits that it does not hold, its tolerance, and the taper."""
+        from mechwright_cut.rules.part_rules import loses
+        from mechwright_cut.settings.cut_table import cut_settings
+
+        return list(loses(part, cut_settings(build.design).kind(self.name, part.material)))
+
+    def seconds(self, part: Part, build: Build) -> float | None:
+        """The way around outside and openings at the feed, as often as it is run, and the pierces."""
+        from mechwright_cut.settings.cut_table import cut_settings
+
+        if part.outline is None:
+            return None
+        settings = cut_settings(build.design)
+        way = float(part.outline.polygon().length)
+        pierces = len(part.outline.loops) * settings.pierce
+        return settings.passes * (60 * way / settings.feed + pierces)
+
+
+class Laser(Cut):
+    """By ``cut.laser``: CO2, diode or fibre."""
+
+    name = "laser"
+    title = "laser cutting"
+
+
+class Waterjet(Cut):
+    """By a jet of water with grit."""
+
+    name = "waterjet"
+    title = "waterjet cutting"
+
+
+class Plasma(Cut):
+    """By an arc: blanks, whose bores are drilled."""
+
+    name = "plasma"
+    title = "plasma cutting"
+
+
+class Wire(Cut):
+    """By wire erosion."""
+
+    name = "wire"
+    title = "wire erosion"
+
+
+class Service(Cut):
+    """By a service, which gets drawings."""
+
+    name = "service"
+    title = "a cutting service"
+
+    def seconds(self, part: Part, build: Build) -> float | None:  # noqa: ARG002
+        """Nobody here knows."""
+        return None

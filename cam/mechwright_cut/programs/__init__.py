@@ -1,0 +1,1 @@
+"""Programs for the controls of beams and wires."""

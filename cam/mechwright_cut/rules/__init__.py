@@ -1,0 +1,1 @@
+"""What speaks against cutting a part, or a sheet of parts."""

@@ -1,0 +1,1 @@
+"""The table ``[cut]``, and figures of processes, kerfs and materials."""

@@ -1,0 +1,1 @@
+"""Paths in the plane, and parts on one plate: what milling and cutting share."""

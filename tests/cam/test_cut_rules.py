@@ -1,0 +1,259 @@
+"""What is refused of cutting, each by name, with the nearest that works."""
+
+from pathlib import Path
+
+import pytest
+from cut_sheets import plate, sheet_of, toothed
+from planning_parts import bore, rounded_box
+
+from mechwright.contracts.details import Chamfer, Thread
+from mechwright.contracts.finding import Severity, errors
+from mechwright.contracts.fits import hole_fit
+from mechwright.contracts.own_materials import OwnMaterial, add_materials
+from mechwright.contracts.part import Bore, Part, Pocket, Profile
+from mechwright.errors import DesignError
+from mechwright.geometry import Loop, Outline
+from mechwright.pipeline import Build
+from mechwright.pipeline.process import ChosenProcesses
+from mechwright.plugins.host import host
+from mechwright_cut.cutting import Cutting
+from mechwright_cut.jobs import cut_part
+from mechwright_cut.rules.part_rules import part_findings, refused
+from mechwright_cut.settings.cut_settings import CutSettings
+from mechwright_cut.settings.cut_table import CutTable
+from mechwright_cut.settings.figures import able, kerf_of, processes, refusal
+
+GENEVA = Path(__file__).parents[2] / "examples" / "geneva-straight.toml"
+PLAIN = CutSettings()
+
+
+def findings(part, process="co2-laser", kerf=0.2, **said):
+    settings = CutSettings(**said)
+    kind = processes()[process]
+    return list(part_findings(cut_part(part, kind, settings), kind, kerf, settings))
+
+
+def of(code, found):
+    return [one for one in found if one.code == code]
+
+
+# -- materials -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("process", "name", "why"),
+    [
+        ("co2-laser", "hdpe", "melts and burns"),
+        ("diode-laser", "polycarbonate", "takes up the beam"),
+        ("co2-laser", "steel", "reflects"),
+        ("co2-laser", "7075", "reflects"),
+        ("fibre-laser", "acrylic", "goes through it"),
+        ("co2-laser", "pom", "formaldehyde"),
+        ("waterjet", "plywood", "swells"),
+        ("wire", "acrylic", "does not conduct"),
+        ("plasma", "brass", "zinc"),
+        ("co2-laser", "pvc-sheet", "chlorine"),
+        ("diode-laser", "clear-acrylic", "blue beam"),
+        ("co2-laser", "carbon-plate", "resin"),
+        ("co2-laser", "abs", "cyanide"),
+        ("fibre-laser", "ptfe", "fluorine"),
+        ("co2-laser", "foam-board", "fires"),
+    ],
+)
+def test_what_must_not_be_cut_is_refused_with_its_reason(process, name, why):
+    assert why in refusal(process, name).why
+
+
+def test_a_material_of_the_shop_is_known_by_the_name_by_which_it_is_ordered():
+    add_materials({"sheet-7": OwnMaterial(like="acrylic", order="rigid PVC, grey")})
+    try:
+        assert "chlorine" in refusal("co2-laser", "sheet-7").why
+    finally:
+        add_materials({})
+
+
+def test_extraction_lifts_the_refusal_of_pom_alone():
+    part = plate(material="pom")
+    process = processes()["co2-laser"]
+    assert "cut.extraction = true" in refused(part, process, PLAIN)
+    # Nothing is known of the thickness that it cuts, and it says so.
+    assert "nothing is known" in refused(part, process, CutSettings(extraction=True))
+    assert "melts" in refused(plate(material="hdpe"), process, CutSettings(extraction=True))
+
+
+def test_what_cuts_a_material_of_a_thickness():
+    assert able("steel", 3) == ["fibre-laser", "waterjet", "plasma", "wire"]
+    assert able("steel", 30) == ["waterjet", "wire"]
+    assert able("plywood", 3) == ["co2-laser", "diode-laser"]
+    assert able("hdpe", 5) == ["waterjet"]
+
+
+# -- kerfs ---------------------------------------------------------------------------------------------------
+
+
+def test_a_kerf_lies_between_its_neighbours_and_a_measured_one_goes_first():
+    at = [kerf_of("co2-laser", "plywood", t).width for t in (1.0, 1.6, 3.0, 4.5, 6.0, 9.0)]
+    assert at == [0.15, 0.15, 0.2, 0.225, 0.25, 0.25]
+    mine = CutSettings(
+        kerfs=[
+            {"process": "co2-laser", "material": "plywood", "thickness": 3, "kerf": 0.31},
+            {"process": "co2-laser", "material": "any", "thickness": 3, "kerf": 0.99},
+        ]
+    ).kerfs
+    assert kerf_of("co2-laser", "plywood", 3, mine).width == 0.31
+    assert kerf_of("co2-laser", "mdf", 3, mine).width == 0.99
+    assert kerf_of("diode-laser", "mdf", 3, mine).width == 0.15
+    assert kerf_of("co2-laser", "pom", 3) is None
+
+
+# -- parts ---------------------------------------------------------------------------------------------------
+
+
+def test_recesses_thickness_and_shapes_that_overlap_are_refused():
+    laser = processes()["co2-laser"]
+    pocket = Pocket("dish", rounded_box(6, 6, 1), (), 0, 1)
+    outside = Profile("outside", rounded_box(24, 16, 3), "outside", 0, 3)
+    assert "dish does not go through" in refused(plate(machined=(pocket, outside)), laser, PLAIN)
+    blind = Bore("seat", (0, 0), 5, 0, 2)
+    assert "seat does not go through" in refused(plate(machined=(blind, outside)), laser, PLAIN)
+    assert "up to 6 mm, and it is 8 mm" in refused(plate(thickness=8.0), laser, PLAIN)
+    assert "openings 1 and 2 overlap" in refused(plate("p", bore(6), bore(6, (4, 0))), laser, PLAIN)
+    assert "opening 1 crosses the outside" in refused(plate("p", bore(6, (11, 0))), laser, PLAIN)
+    assert refused(plate("p", bore(6)), laser, PLAIN) is None
+
+
+def test_holes_below_the_least_are_refused_or_marked():
+    part = plate("p", bore(1.2), bore(1.2, (5, 0)), bore(6, (-5, 0)))
+    (told,) = of("cut.hole", findings(part))
+    assert told.severity is Severity.ERROR
+    assert "2 holes of 1.2 mm" in told.message
+    assert told.limit == 1.5
+    assert told.proposed == ({"cut.small_holes": "spot"},)
+    assert not of("cut.hole", findings(part, small_holes="spot"))
+    cut = cut_part(part, processes()["co2-laser"], CutSettings(small_holes="spot"))
+    assert len(cut.outline.inner) == 1
+    assert len(cut.strokes) == 4
+    assert [line.startswith("drill the hole of 1.2 mm") for line in cut.finishing] == [True, True]
+
+
+@pytest.mark.parametrize(("off", "told"), [(2.2, True), (2.0, True), (1.0, False)])
+def test_thin_webs_are_told(off, told):
+    """3 mm of acrylic want 2.1 mm between a hole and the rim."""
+    part = plate("p", bore(4, (0, 8 - 2 - 2.1 + off - 1.5)))
+    assert bool(of("cut.web", findings(part))) is told
+
+
+def test_inside_corners_keep_the_radius_of_the_beam():
+    sharp = Loop.polygon([(-6, -4), (-6, 4), (6, 4), (6, -4)])
+    part = Part("p", Outline(rounded_box(30, 20, 3), (sharp,)), 3, "steel")
+    (told,) = of("cut.corner", findings(part, "waterjet", 0.88))
+    # R (√2 - 1) stays in a right angle.
+    assert told.value == pytest.approx(0.5 * (2**0.5 - 1), abs=0.01)
+    assert not of("cut.corner", findings(part, "fibre-laser", 0.2))
+
+
+def fitted(name="P7", material="steel"):
+    fit = hole_fit(8, name)
+    hole = Bore("seat", (0.0, 0.0), fit.middle, 0, 3.0, fit)
+    loop = bore(fit.middle)
+    outside = Profile("outside", rounded_box(24, 16, 3), "outside", 0, 3.0)
+    return plate("p", loop, material=material, machined=(hole, outside))
+
+
+def test_a_fit_that_no_kerf_holds_is_reamed_bushed_or_refused():
+    part = fitted("H7")
+    (note,) = of("cut.fit", findings(part, "fibre-laser"))
+    assert note.severity is Severity.NOTE
+    cut = cut_part(part, processes()["fibre-laser"], PLAIN)
+    assert 2 * cut.outline.inner[0].segments[0].radius == pytest.approx(8.0075 - 0.5, abs=1e-3)
+    assert cut.finishing == ("ream seat at (0.000, 0.000) to 8 H7 (0/+0.015)",)
+    bushed = cut_part(part, processes()["fibre-laser"], CutSettings(fits="bush"))
+    assert 2 * bushed.outline.inner[0].segments[0].radius == pytest.approx(11.0)
+    assert bushed.finishing[0].startswith("bond a bush of 11 x 8 H7")
+    (told,) = of("cut.fit", findings(part, "fibre-laser", fits="refuse"))
+    assert told.severity is Severity.ERROR
+    assert told.proposed == ({"cut.fits": "ream"},)
+
+
+def test_a_press_fit_in_plastic_is_refused_but_for_a_bush():
+    assert of("cut.press-fit", findings(fitted("P7", "acrylic")))
+    assert not of("cut.press-fit", findings(fitted("P7", "steel"), "fibre-laser"))
+    assert not of("cut.press-fit", findings(fitted("P7", "acrylic"), fits="bush"))
+
+
+def test_threads_and_chamfers_are_finished_afterwards():
+    loop = rounded_box(24, 16, 3)
+    part = plate(
+        "p", bore(5), details=(Thread("t", (0, 0), 6.0, 1.0, 3.0), Chamfer("rim", loop, "outside", 0.3))
+    )
+    said = cut_part(part, processes()["co2-laser"], PLAIN).finishing
+    assert said == ("tap M6x1 at (0.000, 0.000)", "break the edge rim: 0.3 mm x 45°")
+
+
+# -- the table -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"power": 20, "engrave_power": 30}, "a mark would go through: set engrave_power = 5"),
+        ({"passes": 2, "offsets": [0.2]}, "offsets has 1 values for 2 passes"),
+        ({"passes": 2, "offsets": [0.1, 0.2]}, "sort them downwards"),
+        ({"kerff": 0.2}, "kerf"),
+        ({"laser": "yag"}, "laser"),
+    ],
+)
+def test_a_table_that_is_wrong_says_where(table, said):
+    with pytest.raises(DesignError, match=said):
+        CutTable().read(table, Path("design.toml"))
+
+
+def build_of(tmp_path, process, table="", **parameters):
+    text = GENEVA.read_text(encoding="utf-8")
+    for key, value in parameters.items():
+        text = "\n".join(
+            f"{key} = {value}" if line.startswith(f"{key} =") else line for line in text.splitlines()
+        )
+    file = tmp_path / "geneva.toml"
+    file.write_text(f'process = "{process}"\n{text}\n\n[cut]\n{table}\n', encoding="utf-8")
+    return Build(file, host())
+
+
+def test_aluminium_is_not_cut_by_a_co2_laser_and_the_line_to_type_says_what_does(tmp_path):
+    with build_of(tmp_path, "laser") as build:
+        told = errors(ChosenProcesses().findings(build))
+        assert len(told) == 3
+        assert "bare metal reflects the beam" in told[0].message
+        assert 'process = { default = "laser", parts.wheel = "waterjet" }' in told[0].remedy
+        assert not build.made(Cutting).programs
+
+
+@pytest.mark.parametrize(
+    ("process", "table", "code"),
+    [
+        ("waterjet", "joints = 2", "cut.joints"),
+        ("waterjet", 'control = "grbl-laser"', "cut.control"),
+        ("waterjet", "sheet = { length = 100, width = 100 }", "cut.sheet"),
+        ("waterjet", "kerf = 9.0", "cut.path"),
+        ("wire", "start_hole = 9.0", "cut.path"),
+    ],
+)
+def test_settings_that_do_not_go_are_findings(tmp_path, process, table, code):
+    with build_of(tmp_path, process, table + '\nsmall_holes = "spot"') as build:
+        assert code in {one.code for one in errors(build.made(Cutting).findings)}
+
+
+@pytest.mark.parametrize("process", ["waterjet", "wire"])
+def test_the_geneva_is_cut_and_proven(tmp_path, process):
+    said = "passes = 2" if process == "wire" else 'small_holes = "spot"'
+    with build_of(tmp_path, process, said) as build:
+        cutting = build.made(Cutting)
+        assert not errors(cutting.findings)
+        assert [len(one.job.pieces) for one in cutting.programs] == [1, 1, 1]
+        assert all(one.proof.ok for one in cutting.programs)
+
+
+def test_a_wheel_and_a_plate_share_a_sheet_without_touching():
+    job = sheet_of(toothed(), plate())
+    one, two = (piece.outline.polygon() for piece in job.pieces)
+    assert one.distance(two) > 2
