@@ -14,9 +14,10 @@ from bench_pipeline import forget
 from harness import race, report, require
 
 from mechwright.designs.design import load
+from mechwright.pipeline.process import plates_of
 from mechwright.plugins.host import host
 from mechwright_cam import planning
-from mechwright_cam.planning.prepare import plates, prepare
+from mechwright_cam.planning.prepare import prepare
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "geneva-cycloidal.toml"
 ANCHOR, BEFORE = "a star of 2,000 corners, grown and shrunk", 20.8
@@ -38,7 +39,7 @@ def main() -> int:
     def planned() -> object:
         forget()
         memory = [planning.Assignments()] if hasattr(planning, "Assignments") else []
-        _, jobs = prepare(design, plates(design.family.parts(design.params)), *memory)
+        _, jobs = prepare(design, plates_of(design.family.parts(design.params)), *memory)
         return sum(len(planning.plan(job, *memory).sections) for job in jobs)
 
     timings = race({ANCHOR: anchor, "planning of geneva-cycloidal": planned}, rounds=5)

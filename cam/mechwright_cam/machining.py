@@ -13,6 +13,7 @@ from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError, ProofError, ToolError
 from mechwright.pipeline import Build
+from mechwright.pipeline.process import MILL, plates_by
 from mechwright.plugins.host import Host
 from mechwright.worker_pool.sharing import shared
 from mechwright_cam.controls.contract import Control
@@ -20,7 +21,7 @@ from mechwright_cam.exactness import posted
 from mechwright_cam.operations.contract import Operation
 from mechwright_cam.planning import plan
 from mechwright_cam.planning.assign import Assignments
-from mechwright_cam.planning.prepare import plates, prepare
+from mechwright_cam.planning.prepare import prepare
 from mechwright_cam.planning.setups import carried
 from mechwright_cam.program.moves import Program
 from mechwright_cam.proof.carried import cut_away
@@ -148,7 +149,7 @@ class Machining:
     @cached_property
     def plates(self) -> list[Part]:
         """The parts that are milled from a plate."""
-        return plates(self._build.parts)
+        return plates_by(self._build.design, self._build.parts, MILL)
 
     @cached_property
     def _prepared(self) -> tuple[list[Finding], list[Job]]:

@@ -19,6 +19,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.pages.blanks import MilledPlates
     from mechwright_cam.pages.certificate import Certificates
     from mechwright_cam.pages.registered import DrawingFiles, JobPages, ProgramFiles, ProofFile, SetupSheets
+    from mechwright_cam.process import Milling
     from mechwright_cam.proof.rules import BUILT_IN
     from mechwright_cam.results import Minutes, Programs
     from mechwright_cam.shop.shop_table import ShopTable
@@ -33,6 +34,7 @@ def mechwright_register() -> list[type[Plugin]]:
         CamTable,
         *pages,
         MilledPlates,
+        Milling,
         Machinable,
         InHand,
         Proven,

@@ -73,6 +73,7 @@ if TYPE_CHECKING:
     from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
     from mechwright.geometry.segments import Point
     from mechwright.pipeline import Blank, Build, FileName, Inspection, Page, RawStock, Wanted
+    from mechwright.pipeline.process import Process
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
     from mechwright.scripting.mechanism import Mechanism
@@ -85,6 +86,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "mechwright.arrays": "Array",
     "mechwright.pipeline": "Blank Build FileName Inspection Page RawStock Wanted",
+    "mechwright.pipeline.process": "Process",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.axial_stack": "AxialStack Shimming StackLength",
@@ -153,6 +155,7 @@ __all__ += [
     "FileName",
     "Inspection",
     "Page",
+    "Process",
     "RawStock",
     "Standing",
     "Table",

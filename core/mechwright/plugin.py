@@ -9,6 +9,7 @@ from mechwright.machine.stacks_page import StacksPage
 from mechwright.machine.table import MachineTable
 from mechwright.pipeline.file_names import FileNames
 from mechwright.pipeline.fits import DeclaredFits
+from mechwright.pipeline.process import ChosenProcesses, ProcessTable
 from mechwright.pipeline.tables import MotionTables
 from mechwright.pipeline.tolerances import ToleranceKeys, TolerancePage, TolerancesTable
 from mechwright.plugins.hookspecs import hookimpl
@@ -20,6 +21,8 @@ def mechwright_register() -> list[type[Plugin]]:
     return [
         FileNames,
         MotionTables,
+        ProcessTable,
+        ChosenProcesses,
         FitsTable,
         DeclaredFits,
         TolerancesTable,

@@ -22,13 +22,14 @@ from mechwright.contracts.part import Bore, Instance, Part, Pocket, Profile
 from mechwright.designs.design import load
 from mechwright.errors import DesignError, MechwrightError
 from mechwright.geometry import Loop, Outline
+from mechwright.pipeline.process import plates_of
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import machine
 from mechwright_cam.planning import choose_tools
 from mechwright_cam.planning.nesting import arranged, channel_of, nest_of
-from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, plates, prepare
+from mechwright_cam.planning.prepare import cut_outlines, parts_as_cut, prepare
 from mechwright_cam.setup.lay_out import make_job
 from mechwright_cam.setup.nest import Nest, Placed, make_nest, moved_feature
 from mechwright_cam.shop.settings import CamSettings
@@ -187,8 +188,7 @@ def test_features_and_details_turn_with_their_part():
 def nested(tmp_path, text, head=PAIR):
     file = tmp_path / "pair.toml"
     file.write_text(head + text)
-    design = load(file, host())
-    return prepare(design, plates(design.family.parts(design.params)))[1]
+    return prepare(design := load(file, host()), plates_of(design.family.parts(design.params)))[1]
 
 
 @by_night
@@ -359,7 +359,7 @@ def test_the_four_gears_of_the_best_train_on_one_plate(tmp_path):
     file = tmp_path / "best.toml"
     file.write_text(text + '\n[cam.nest]\nname = "gears"\nparts = ["gear-2", "gear-3", "gear-4", "gear-5"]\n')
     design = load(file, host())
-    findings, jobs = prepare(design, plates(design.family.parts(design.params)))
+    findings, jobs = prepare(design, plates_of(design.family.parts(design.params)))
     assert [job.part.name for job in jobs] == ["gears", "coupler", "base"]
     assert [finding.code for finding in findings].count("gear.cut-mesh") == 2  # the family saw all four
     made = machine(jobs[0], POST)

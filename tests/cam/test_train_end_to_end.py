@@ -17,13 +17,14 @@ from mechwright.contracts.finding import Severity
 from mechwright.contracts.part import Instance, Part
 from mechwright.designs.design import Design, load
 from mechwright.designs.requirement import load_requirement
+from mechwright.pipeline.process import plates_of
 from mechwright.plugins.host import host
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.exporters import StepExporter
 from mechwright_cad.interference import interference, smooth_motion
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machined, machine
-from mechwright_cam.planning.prepare import plates, prepare
+from mechwright_cam.planning.prepare import prepare
 from mechwright_cam.shop.table import settings_of
 from mechwright_elliptic_gears.parts.mesh_proof import prove_outlines
 
@@ -47,7 +48,7 @@ class Built:
 def built(request: pytest.FixtureRequest) -> Built:
     design = load(EXAMPLES / f"figure-eight-{request.param}.toml", host())
     parts = tuple(design.family.parts(design.params))
-    milled = plates(parts)
+    milled = plates_of(parts)
     findings, jobs = prepare(design, milled)
     post = host().get(Control, settings_of(design).cam.control)
     made = {job.part.name: machine(job, post) for job in jobs}

@@ -18,6 +18,7 @@ from mechwright.designs.files import SIZE_LIMIT, read_text
 from mechwright.errors import DesignError, PluginError, ProgramError
 from mechwright.output.folder import write_new
 from mechwright.pipeline import Build, Wanted
+from mechwright.pipeline.process import plates_of
 from mechwright_cam.commands.verify_drawing import drawn_scene, job_of
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.machining import Machining, machine, second_setup
@@ -143,7 +144,7 @@ def scene_of(
     """
     design = build.design
     assignments = build.made(Machining).assignments
-    preparation = Preparation(design, build.parts, assignments)
+    preparation = Preparation(design, plates_of(build.parts), assignments)
     known = {part.name: part for part in (*build.parts, *preparation.cut)}
     name = part_name if part_name in known else part_name.removesuffix(UNDERSIDE)
     if name not in known:

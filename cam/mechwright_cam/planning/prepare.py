@@ -38,11 +38,6 @@ FINER = (1.0, 0.5)
 cut do not go together, one after the other."""
 
 
-def plates(parts: Sequence[Part]) -> list[Part]:
-    """The parts that are milled from a plate."""
-    return [part for part in parts if part.outline is not None and part.bought is None]
-
-
 def library_of(design: Design, materials: Sequence[str] = ()) -> Library:
     """The cutters at hand, with estimates for these materials where they have no data.
 
@@ -78,7 +73,7 @@ class Preparation:
 
     def __init__(self, design: Design, parts: Sequence[Part], assignments: Assignments) -> None:
         self.design, self.assignments = design, assignments
-        self.settings, self.shop, self.plates = settings_of(design), shop_of(design), plates(parts)
+        self.settings, self.shop, self.plates = settings_of(design), shop_of(design), list(parts)
         self.library = library_of(design, sorted({part.material for part in self.plates}))
 
     @cached_property
