@@ -1,1 +1,1 @@
-"""Printing with plastic filament: compensated plates on the bed, a coupon that measures a printer, rules and pages."""
+"""Printing with plastic filament: plates corrected for a printer, and the coupon that measures it."""

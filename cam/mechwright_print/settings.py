@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mechwright.contracts.parameters import FIRST, Parameters
+from mechwright.contracts.parameters import FIRST, GIVEN, Parameters
 from mechwright.contracts.part import NAME_PATTERN
 from mechwright.units import Millimetres, Ratio
 
@@ -23,13 +23,10 @@ class PrintSettings(Parameters):
         description="File of the printer beside the design. Default: published figures of printers.",
         json_schema_extra=FIRST,
     )
-    parts: Annotated[tuple[PartName, ...], Field(max_length=200)] = Field(
-        (), description="Parts that are printed. Default: plates and parts of free form."
-    )
     fits: Literal["open", "ream", "drawn"] = Field(
         "open",
         description=(
-            "Holes with a fit: open by the printer's clearance, or printed for a reamer, or in their drawn size."
+            "Holes with a fit: open by the printer's clearance, for a reamer, or in their drawn size."
         ),
         json_schema_extra=FIRST,
     )
@@ -55,5 +52,12 @@ class PrintSettings(Parameters):
     )
     allowance: Millimetres = Field(
         0.4, ge=0.05, le=2, description="What a reamer takes of the diameter of a hole."
+    )
+    greatest_play: Millimetres | None = Field(
+        None,
+        gt=0,
+        le=10,
+        description="Most play of a shaft in a printed hole, on the diameter. Default: no limit.",
+        json_schema_extra=GIVEN,
     )
     gap: Millimetres = Field(5.0, ge=0.5, le=100, description="Between two parts on the bed, at least.")

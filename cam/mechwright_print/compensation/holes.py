@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mechwright.contracts.details import Thread
-from mechwright.contracts.fits import Fit
+from mechwright.contracts.fits import Fit, hole_fit
 from mechwright.contracts.holes import exchanged
 from mechwright.contracts.part import Bore, Part
 from mechwright.errors import DesignError
@@ -43,15 +43,16 @@ class PrintedHole:
 
 
 def joint_kind(fit: Fit) -> JointKind:
-    """The kind of joint that a hole's limits are for: N and P hold, H locates, what is wider turns.
+    """The kind of joint that a hole's limits are for: N and P hold, H locates, F slides, what is wider turns.
 
-    >>> from mechwright.contracts.fits import hole_fit
-    >>> [joint_kind(hole_fit(8, name)) for name in ("P7", "H7", "F7")]
-    ['press', 'snug', 'turning']
+    >>> [joint_kind(hole_fit(8, name)) for name in ("P7", "H7", "F7", "E7")]
+    ['press', 'snug', 'sliding', 'turning']
     """
     if fit.lower < 0:
         return "press"
-    return "turning" if fit.lower > 0 else "snug"
+    if fit.lower == 0:
+        return "snug"
+    return "turning" if fit.lower > hole_fit(fit.size, "F7").lower else "sliding"
 
 
 def printed_holes(part: Part, settings: PrintSettings, printer: Printer) -> list[PrintedHole]:
@@ -104,7 +105,14 @@ def _threaded(part: Part, bore: Bore, thread: Thread, settings: PrintSettings) -
     insert = None if thread.inch or thread.left else INSERTS.get(thread.diameter)
     if settings.threads == "insert" and insert is not None:
         return PrintedHole(
-            part.name, bore.name, "insert", bore.diameter, insert.hole, None, f"press in {insert.name}", insert
+            part.name,
+            bore.name,
+            "insert",
+            bore.diameter,
+            insert.hole,
+            None,
+            f"press in {insert.name}",
+            insert,
         )
     if settings.threads == "screw":
         wide = screw_size(thread.diameter).clearance()

@@ -74,9 +74,7 @@ def _moved(part: Part, printer: Printer) -> Part:
     features = tuple(_feature(feature, printer) for feature in part.features)
     details = tuple(_detail(detail, printer) for detail in part.details)
     # The outline and the features that go through are the same walls: they move alike.
-    return replace(
-        part, outline=Outline(outer, inner, outline.deviation), machined=features, details=details
-    )
+    return replace(part, outline=Outline(outer, inner, outline.deviation), machined=features, details=details)
 
 
 def more_material(loop: Loop, printer: Printer, *, opening: bool) -> float:

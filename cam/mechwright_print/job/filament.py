@@ -1,4 +1,4 @@
-"""How much filament a part takes: full lines at its walls, full layers at its faces, a share of the inside."""
+"""Filament that a part takes: full lines at its walls, full layers at its faces, a share of the inside."""
 
 import shapely
 

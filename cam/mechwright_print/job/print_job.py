@@ -11,13 +11,19 @@ from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.errors import DesignError
 from mechwright.pipeline import Build
+from mechwright.pipeline.process import ProcessSettings, ProcessTable, plates_by, plates_of
 from mechwright_print.compensation.plates import Compensated, compensated
 from mechwright_print.job.filament import filament_mass
-from mechwright_print.job.laid_out import Placed, laid_out
+from mechwright_print.meshes.laid_out import Placed, laid_out
 from mechwright_print.meshes.printed_mesh import PrintedMesh, printed_mesh
 from mechwright_print.printer.settings import Printer
 from mechwright_print.settings import PrintSettings
-from mechwright_print.table import printing_of
+from mechwright_print.table import is_printed, printing_of
+
+PRINT = "print"
+"""The name of the process."""
+PRINTABLE = frozenset({"plate", "solid"})
+"""Kinds of parts that are printed; what is turned or bought stays metal."""
 
 
 def copies(part: Part) -> int:
@@ -26,29 +32,38 @@ def copies(part: Part) -> int:
 
 
 def printed_parts(design: Design, parts: Sequence[Part]) -> list[Part]:
-    """The parts of a design that are printed.
+    """The parts of a design that are printed: plates of this process, or all where it says nothing of it.
 
-    Raises DesignError for a part that is named and is not there, or is turned or bought.
+    Parts of free form go along where plates are printed by default. Raises DesignError for a part that
+    ``[print]`` names and that is not there, or stays metal.
     """
-    settings = printing_of(design).settings
-    able = [part for part in parts if part.kind in {"plate", "solid"}]
-    _check_names(design, settings, parts)
-    if not settings.parts:
-        return [part for part in able if part.instances] or able
-    return [part for part in able if part.name in settings.parts]
+    _check_names(design, printing_of(design).settings, parts)
+    said: ProcessSettings = design.table(ProcessTable)
+    own = plates_by(design, parts, PRINT)
+    chosen = bool(own) or said.default == PRINT
+    plates = own if chosen else plates_of(parts)
+    bodies = [part for part in parts if part.kind == "solid"] if said.default == PRINT or not chosen else []
+    able = [part for part in (*plates, *bodies) if part.kind in PRINTABLE]
+    return [part for part in able if part.instances] or able
+
+
+def is_asked(design: Design, parts: Sequence[Part]) -> bool:
+    """Whether a design says anything of printing, in its table or as a process."""
+    return is_printed(design) or bool(plates_by(design, parts, PRINT))
 
 
 def _check_names(design: Design, settings: PrintSettings, parts: Sequence[Part]) -> None:
     by_name = {part.name: part for part in parts}
-    able = ", ".join(part.name for part in parts if part.kind in {"plate", "solid"}) or "none"
-    named = [("parts", one) for one in settings.parts] + [("flip", one) for one in settings.flip]
+    able = ", ".join(part.name for part in parts if part.kind in PRINTABLE) or "none"
+    named = [("flip", one) for one in settings.flip]
     named += [("holes", key.partition(".")[0]) for key in settings.holes]
     for key, name in named:
         if name not in by_name:
             raise DesignError(f"{design.path}: print.{key}: no part is named {name!r}; there is: {able}")
-        if by_name[name].kind not in {"plate", "solid"}:
+        if by_name[name].kind not in PRINTABLE:
             raise DesignError(
-                f"{design.path}: print.{key}: {name} is {by_name[name].kind}, and stays metal; it can be: {able}"
+                f"{design.path}: print.{key}: {name} is {by_name[name].kind}, and stays metal; it can be: "
+                f"{able}"
             )
 
 
@@ -83,14 +98,29 @@ class PrintJob:
             for part in printed_parts(self.design, self._parts)
         ]
 
+    def of(self, part: Part) -> JobPart:
+        """A part of the design as this job prints it, whether it does or not."""
+        for one in self.parts:
+            if one.part.name == part.name:
+                return one
+        return JobPart(compensated(part, self.settings, self.printer), part.name in self.settings.flip)
+
+    def seconds(self, part: Part) -> float:
+        """How long one copy takes at the printer's flow, s; travels and small, slow layers add to it."""
+        one = self.of(part)
+        mesh = self.meshes.get(part.name) or self.mesh_of(one)
+        grams = filament_mass(one.made.model, mesh, self.settings, self.printer)
+        return grams / self.printer.grams_per_mm3 / self.printer.flow
+
+    def mesh_of(self, one: JobPart) -> PrintedMesh:
+        """The mesh of a part; raises GeometryError where it cannot be made."""
+        correct = self.settings.compensate == "model"
+        return printed_mesh(one.made, self.printer, on_top=one.on_top, correct=correct)
+
     @cached_property
     def meshes(self) -> dict[str, PrintedMesh]:
         """The mesh of each part by its name; raises GeometryError where one cannot be made."""
-        correct = self.settings.compensate == "model"
-        return {
-            one.part.name: printed_mesh(one.made, self.printer, on_top=one.on_top, correct=correct)
-            for one in self.parts
-        }
+        return {one.part.name: self.mesh_of(one) for one in self.parts}
 
     @cached_property
     def beds(self) -> list[list[Placed]]:

@@ -52,7 +52,7 @@ class PrintedMesh:
         return x, y, z
 
     def moved(self, points: Array) -> Array:
-        """Points (n, 3) of the compensated model, part coordinates, to where they lie on the mesh, in x and y."""
+        """Where points (n, 3) of the compensated model, part coordinates, lie on the mesh, in x and y."""
         turned: Array = (points @ self.to_bed.T) * self.scale
         return turned
 
@@ -113,9 +113,9 @@ def _plate(model: Part, width: float, *, on_top: bool) -> Mesh:
     up = (0.0, 0.0, 1.0)
     down = (0.0, 0.0, -1.0)
     bed, rest = (up, down) if on_top else (down, up)
-    joined = _manifold(broken).trim_by_plane(bed, bed[2] * cut) + _manifold(
-        part_mesh(model)
-    ).trim_by_plane(rest, rest[2] * cut)
+    joined = _manifold(broken).trim_by_plane(bed, bed[2] * cut) + _manifold(part_mesh(model)).trim_by_plane(
+        rest, rest[2] * cut
+    )
     if joined.status() != manifold3d.Error.NoError or joined.is_empty():
         raise GeometryError(f"part {model.name}: the bed side cannot be joined to the rest of its mesh")
     return _mesh(joined)

@@ -28,7 +28,8 @@ def bill_lines(job: PrintJob) -> list[BillLine]:
             1,
             job.printer.material.title,
             total,
-            f"{job.settings.walls} lines, {job.settings.skins} full layers, infill {100 * job.settings.infill:g} %",
+            f"{job.settings.walls} lines, {job.settings.skins} full layers, "
+            f"infill {100 * job.settings.infill:g} %",
         )
     ]
     lines += [

@@ -23,14 +23,18 @@ JointKind = Literal["press", "snug", "sliding", "loose", "turning"]
 HOLE_DEVIATIONS = ((2.5, -0.40), (5.0, -0.30), (10.0, -0.25), (20.0, -0.20), (30.0, -0.15))
 """Diameter of an upright hole and its deviation, mm: the middles of the published ranges, nozzle 0.4, PLA."""
 
-CLEARANCES: dict[JointKind, float] = {
+PUBLISHED: dict[JointKind, float] = {
     "press": 0.05,
     "snug": 0.125,
     "sliding": 0.2,
     "loose": 0.35,
     "turning": 0.5,
 }
-"""Clearance on each side by kind of joint, mm: the middles of the published ranges, PLA."""
+"""Clearance on each side that is drawn for a kind of joint, mm: the middles of the published ranges, PLA."""
+TIGHTER = 0.1
+"""On each side a printed hole is tighter than it was drawn for these, mm: half of what sources agree on."""
+CLEARANCES = {kind: round(drawn - TIGHTER, 6) for kind, drawn in PUBLISHED.items()}
+"""Clearance on each side of what is printed, mm: holes here are corrected, and those were not."""
 
 LINE = 1.05
 """Width of a printed line in diameters of the nozzle: 0.42 mm of 0.4."""

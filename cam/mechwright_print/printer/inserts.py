@@ -1,6 +1,7 @@
 """Heat-set inserts of brass for threads in printed parts.
 
-The figures are those of one maker's range (ruthex), from its packets and unchecked: the packet in hand counts.
+The figures are those of one maker's range (ruthex), from its packets and unchecked: the packet in hand
+counts.
 """
 
 from dataclasses import dataclass

@@ -82,6 +82,9 @@ class Printer(Parameters):
     line: Millimetres | None = Field(
         None, ge=0.1, le=3, description="Width of a printed line. Default: 1.05 nozzle."
     )
+    flow: Annotated[Ratio, Field(gt=0, le=200)] = Field(
+        5.0, description="Filament laid down on the average, in mm³/s, for the time on the sheet."
+    )
     spread: Error = Field(
         0.1, description="Standard deviation of a size from one print, or one place, to the next."
     )
@@ -123,7 +126,7 @@ class Printer(Parameters):
         return own if self.measured else own + self.material.more
 
     def scatter(self, *others: Literal["hole", "slot", "pin", "wall"]) -> float:
-        """Half the range of a size, or of what is between sizes of these kinds, mm: three standard deviations.
+        """Half the range of what is between sizes of these kinds, mm: three standard deviations.
 
         The spread of each size and the standard error of its deviation are independent, and add as squares.
         """

@@ -20,14 +20,16 @@ _QUARTER = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """A copy of a part on a bed: which one, its transform (4, 3) from its mesh to the bed, and its box, mm."""
+    """A copy of a part on a bed: its name, its transform (4, 3) from its mesh to the bed, its box; mm."""
 
     name: str
     transform: Array
     box: tuple[float, float, float, float]
 
 
-def laid_out(meshes: Sequence[tuple[str, PrintedMesh, int]], bed: Bed, gap: float) -> list[list[Placed]]:
+def laid_out(
+    meshes: Sequence[tuple[str, PrintedMesh, int]], bed: Bed, gap: float, *, turn: bool = True
+) -> list[list[Placed]]:
     """The copies of parts on beds, each bed a list; the layout stands in the middle of its bed.
 
     Parameters
@@ -38,6 +40,8 @@ def laid_out(meshes: Sequence[tuple[str, PrintedMesh, int]], bed: Bed, gap: floa
         Its size and the rim that stays free.
     gap
         Between two parts at least, mm.
+    turn
+        Whether parts may be turned by 90 degrees.
 
     Raises
     ------
@@ -46,7 +50,9 @@ def laid_out(meshes: Sequence[tuple[str, PrintedMesh, int]], bed: Bed, gap: floa
     """
     copies = [(name, mesh) for name, mesh, count in meshes for _ in range(count)]
     if len(copies) > MOST:
-        raise DesignError(f"print: {len(copies)} copies, at most {MOST}; name fewer parts in print.parts")
+        raise DesignError(
+            f"print: {len(copies)} copies, at most {MOST}; give parts to another process, as process.parts"
+        )
     for name, mesh, _ in meshes:
         if (fault := too_large(name, mesh, bed)) is not None:
             raise DesignError(fault)
@@ -57,7 +63,7 @@ def laid_out(meshes: Sequence[tuple[str, PrintedMesh, int]], bed: Bed, gap: floa
         taken: list[tuple[str, PrintedMesh]] = []
         spots = None
         for one in list(copies):
-            layout = on_plate([mesh.size[:2] for _, mesh in [*taken, one]], *inside, gap, True)
+            layout = on_plate([mesh.size[:2] for _, mesh in [*taken, one]], *inside, gap, turn)
             if layout is not None:
                 taken.append(one)
                 spots = layout
