@@ -6,12 +6,13 @@ from mechwright.contracts.finding import errors
 from mechwright.contracts.part import Part
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import Process
+from mechwright_print.settings import PRINT
 
 
 class Printing(Process):
     """Filament laid down in layers."""
 
-    name = "print"
+    name = PRINT
     title = "the printer"
 
     def refuses(self, part: Part, build: Build) -> str | None:

@@ -10,6 +10,8 @@ from mechwright.contracts.part import NAME_PATTERN
 from mechwright.units import Millimetres, Ratio
 
 PartName = Annotated[str, Field(pattern=f"^{NAME_PATTERN}$")]
+PRINT = "print"
+"""The name of the process, of its table and of its command."""
 HoleKind = Literal["press", "snug", "sliding", "loose", "turning", "ream", "drawn"]
 """How a hole with a fit is printed: with the clearance of a joint, for a reamer, or in its drawn size."""
 

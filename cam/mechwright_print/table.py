@@ -13,7 +13,7 @@ from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines
 from mechwright_print.printer.printer_file import TABLE, read_printer
 from mechwright_print.printer.settings import Printer
-from mechwright_print.settings import PrintSettings
+from mechwright_print.settings import PRINT, PrintSettings
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Printing:
 class PrintTable(Table[Printing]):
     """Reads and writes ``[print]``."""
 
-    name = "print"
+    name = PRINT
     settings = PrintSettings
 
     def read(self, content: object, path: Path) -> Printing:

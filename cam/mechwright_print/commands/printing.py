@@ -14,11 +14,12 @@ from mechwright.pipeline import Wanted
 from mechwright.pipeline.work import Work
 from mechwright_print.printer.printer_file import printer_text, read_printer
 from mechwright_print.printer.settings import Printer
+from mechwright_print.settings import PRINT
 
 
 def print_design(path: Path, folder: Path, *, as_json: bool) -> None:
     """Write the printed parts of a design into a folder."""
-    wanted = Wanted("print", work=Work(Stage.ASSEMBLY))
+    wanted = Wanted("print", work=Work(Stage.MACHINING, process=PRINT))
     perform(path, folder, wanted, "makes nothing that is printed; use mechwright model", as_json)
 
 

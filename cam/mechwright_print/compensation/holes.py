@@ -10,15 +10,17 @@ operation
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from mechwright.contracts.details import Thread
+from mechwright.contracts.details import Chamfer, Detail, Thread
 from mechwright.contracts.fits import Fit, hole_fit
 from mechwright.contracts.holes import exchanged
 from mechwright.contracts.part import Bore, Part
 from mechwright.errors import DesignError
+from mechwright.geometry import Loop, circle
 from mechwright.standards.screws import screw_size
 from mechwright.tolerances import TOLERANCES
+from mechwright_print.compensation.offsets import rounded_by
 from mechwright_print.printer.facts import JointKind
 from mechwright_print.printer.inserts import INSERTS, Insert
 from mechwright_print.printer.settings import Printer
@@ -129,7 +131,26 @@ def with_targets(part: Part, holes: list[PrintedHole]) -> Part:
         hole = by_name[bore.name]
         if hole.target != bore.diameter:
             part = exchanged(part, bore, _resized(bore, hole.target))
+            part = replace(part, details=tuple(_edge(one, bore, hole.target) for one in part.details))
     return part
+
+
+def _edge(detail: Detail, bore: Bore, diameter: float) -> Detail:
+    """A chamfer along the edge of a hole, along its new one; other details stay."""
+    if not isinstance(detail, Chamfer):
+        return detail
+    around = rounded_by(detail.loop)
+    if around is None or not detail.loop.is_circle:
+        return detail
+    centre, size = around
+    if math.dist(centre, bore.centre) > _NEAR or abs(size - bore.diameter) > _NEAR:
+        return detail
+    edge = circle(bore.centre, diameter / 2, clockwise=detail.loop.area < 0)
+    return replace(detail, loop=Loop((edge,)))
+
+
+_NEAR = 1e-3
+"""A chamfer is that of a hole if centres and diameters differ by less, mm."""
 
 
 def _resized(bore: Bore, diameter: float) -> Bore:

@@ -17,11 +17,9 @@ from mechwright_print.job.filament import filament_mass
 from mechwright_print.meshes.laid_out import Placed, laid_out
 from mechwright_print.meshes.printed_mesh import PrintedMesh, printed_mesh
 from mechwright_print.printer.settings import Printer
-from mechwright_print.settings import PrintSettings
+from mechwright_print.settings import PRINT, PrintSettings
 from mechwright_print.table import is_printed, printing_of
 
-PRINT = "print"
-"""The name of the process."""
 PRINTABLE = frozenset({"plate", "solid"})
 """Kinds of parts that are printed; what is turned or bought stays metal."""
 

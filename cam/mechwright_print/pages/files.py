@@ -32,8 +32,9 @@ class PrintFiles(Page):
         return [*own, *beds, *rest]
 
     def files(self, build: Build) -> dict[str, str | bytes]:
-        """Name to content; raises RefusedError where a rule forbids the print."""
+        """Name to content; raises GeometryError where a mesh cannot be made."""
         from mechwright_cad.exporters.mesh import stl_of
+        from mechwright_print.as_made import AsPrinted
         from mechwright_print.job.print_job import PrintJob
         from mechwright_print.pages.bill import bill_csv, bill_lines
         from mechwright_print.pages.sheet import sheet_html
@@ -42,15 +43,14 @@ class PrintFiles(Page):
         job = build.made(PrintJob)
         if not job.parts:
             return {}
-        found = findings_of(build)
-        build.require(found)
+        found = build.made(findings_of)
         lines = bill_lines(job)
         plates = {f"plate-{number}.3mf": plate_file(job, number) for number in range(1, len(job.beds) + 1)}
         meshes = {f"{name}.stl": stl_of(name, mesh.mesh) for name, mesh in job.meshes.items()}
         return {
             **plates,
             **meshes,
-            SHEET: sheet_html(job, found, lines),
+            SHEET: sheet_html(job, found, lines, build.made(AsPrinted)),
             BILL: bill_csv(lines),
         }
 

@@ -9,6 +9,8 @@ import numpy as np
 
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.output.templates import templates
+from mechwright.pipeline.tolerances.units import percent, shown, shown_unit
+from mechwright_print.as_made import AsPrinted
 from mechwright_print.compensation.holes import PrintedHole, operations
 from mechwright_print.job.print_job import PrintJob, copies
 from mechwright_print.meshes.laid_out import Placed
@@ -37,7 +39,7 @@ class HoleRow:
     play: tuple[float, float] | None
 
 
-def sheet_html(job: PrintJob, found: Sequence[Finding], bill: Sequence[BillLine]) -> str:
+def sheet_html(job: PrintJob, found: Sequence[Finding], bill: Sequence[BillLine], running: AsPrinted) -> str:
     """The page: one file without network or script."""
     parts: list[dict[str, Any]] = [
         {
@@ -67,6 +69,10 @@ def sheet_html(job: PrintJob, found: Sequence[Finding], bill: Sequence[BillLine]
             told=[one for one in found if one.severity is not Severity.NOTE],
             notes=[one for one in found if one.severity is Severity.NOTE],
             bill=bill,
+            running=running.outputs,
+            shown=shown,
+            shown_unit=shown_unit,
+            percent=percent,
             deviations=deviations(job.printer),
             mass=sum(part["mass"] * part["copies"] for part in parts),
             minutes=sum(part["minutes"] * part["copies"] for part in parts),

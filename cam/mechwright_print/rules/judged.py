@@ -9,14 +9,11 @@ from collections.abc import Iterator
 
 from mechwright.contracts.details import Engraving
 from mechwright.contracts.finding import Change, Finding
-from mechwright.contracts.holes import wall_beside
-from mechwright.contracts.part import Bore, Part
+from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
 from mechwright.tolerances import exceeds
-from mechwright_print.compensation.holes import PrintedHole
 from mechwright_print.job.print_job import JobPart, PrintJob
 from mechwright_print.printer.facts import BRIDGE, LINES
-from mechwright_print.printer.inserts import WALL
 from mechwright_print.printer.settings import Printer
 from mechwright_print.rules.faces import hanging_faces
 from mechwright_print.rules.walls import Narrow, narrowest
@@ -151,119 +148,6 @@ def _first(height: float, printer: Printer) -> float:
     return round(near, 3)
 
 
-def fit_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
-    """Fits are no finer than the printer scatters; nothing is pressed into plastic."""
-    scatter = job.printer.scatter("hole")
-    for hole in one.made.holes:
-        if hole.fit is None or hole.kind == "ream":
-            continue
-        key, middle = f"{hole.part}.{hole.name}", hole.target - hole.fit.size
-        if hole.kind == "drawn":
-            yield _unattainable(job, hole, key, scatter)
-        elif hole.kind in {"sliding", "turning", "loose"} and middle - scatter <= 0:
-            yield _jams(job, hole, key, middle, scatter)
-        elif job.settings.greatest_play is not None and middle + scatter > job.settings.greatest_play:
-            yield _rattles(job, hole, key, middle + scatter)
-        elif hole.kind == "press":
-            yield Finding.warning(
-                "print.press",
-                "print.holes",
-                f"{hole.part}: {hole.name} ⌀{hole.fit.size:g} is pressed, and this printer scatters by "
-                f"±{scatter:.2f} mm: pins come loose, or split it",
-                scatter,
-                None,
-                "mm",
-                f'ream it: holes = {{ "{key}" = "ream" }} in [print]',
-                proposed=({"print.holes": {**job.settings.holes, key: "ream"}},),
-            )
-
-
-def _jams(job: PrintJob, hole: PrintedHole, key: str, middle: float, scatter: float) -> Finding:
-    """An error of a measured printer; of another one the coupon may tell better."""
-    measured = job.printer.measured
-    kind = Finding.error if measured else Finding.warning
-    return kind(
-        "print.jam",
-        "print.holes",
-        f"{hole.part}: a shaft in {hole.name} has {middle:.2f} mm of play, and this printer scatters by "
-        f"±{scatter:.2f} mm: it may jam",
-        middle,
-        scatter,
-        "mm",
-        f'set holes = {{ "{key}" = "ream" }} in [print]'
-        + ("" if measured else ", or measure the printer: mechwright print --coupon -o coupon"),
-        proposed=({"print.holes": {**job.settings.holes, key: "ream"}},),
-    )
-
-
-def _rattles(job: PrintJob, hole: PrintedHole, key: str, play: float) -> Finding:
-    return Finding.error(
-        "print.play",
-        "print.greatest_play",
-        f"{hole.part}: a shaft in {hole.name} has up to {play:.2f} mm of play; the limit is "
-        f"{job.settings.greatest_play:g} mm",
-        play,
-        job.settings.greatest_play,
-        "mm",
-        f'set holes = {{ "{key}" = "ream" }} in [print]',
-        proposed=({"print.holes": {**job.settings.holes, key: "ream"}},),
-    )
-
-
-def _unattainable(job: PrintJob, hole: PrintedHole, key: str, scatter: float) -> Finding:
-    assert hole.fit is not None  # noqa: S101 - asked of holes with a fit
-    wide = hole.fit.upper - hole.fit.lower
-    return Finding.error(
-        "print.fit",
-        "print.holes" if key in job.settings.holes else "print.fits",
-        f"{hole.part}: {hole.name} {hole.fit.text} is {wide:.3f} mm wide, and this printer scatters by "
-        f"±{scatter:.2f} mm",
-        2 * scatter,
-        wide,
-        "mm",
-        f'set holes = {{ "{key}" = "ream" }} in [print], or fits = "open"',
-        proposed=(
-            {"print.holes": {**job.settings.holes, key: "ream"}},
-            {"print.fits": "open"},
-        ),
-    )
-
-
-def insert_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
-    """Plastic stays around and below inserts; threads without an insert are told."""
-    bores = {bore.name: bore for bore in one.part.features if isinstance(bore, Bore)}
-    for hole in one.made.holes:
-        bore = bores[hole.name]
-        if hole.insert is not None:
-            wall = wall_beside(one.part, bore) - hole.insert.hole / 2
-            deep = min(bore.depth, one.part.thickness)
-            if wall < WALL or deep < hole.insert.length:
-                short = (
-                    f"its hole is {deep:g} mm deep"
-                    if deep < hole.insert.length
-                    else f"{wall:.2f} mm stay beside it"
-                )
-                yield Finding.warning(
-                    "print.insert",
-                    "print.threads",
-                    f"{hole.part}: {hole.name} has no room for a {hole.insert.name}: {short}, it takes "
-                    f"{hole.insert.length:g} mm and {WALL:g} mm of wall",
-                    deep if deep < hole.insert.length else wall,
-                    hole.insert.length if deep < hole.insert.length else WALL,
-                    "mm",
-                    'set threads = "screw" in [print]: a screw goes through, with a nut',
-                    proposed=({"print.threads": "screw"},),
-                )
-        elif hole.kind == "tap" and job.settings.threads == "insert":
-            yield Finding.warning(
-                "print.insert",
-                "print.threads",
-                f"{hole.part}: {hole.name} has a thread for which no insert is known: it is for a tap",
-                remedy='set threads = "screw" in [print]: a screw goes through, with a nut',
-                proposed=({"print.threads": "screw"},),
-            )
-
-
 def bridge_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
     """Level faces over nothing are told; longer bridges than filament spans are a warning."""
     part = one.part
@@ -311,8 +195,6 @@ RULES = (
     wall_rule,
     gap_rule,
     layer_rule,
-    fit_rule,
-    insert_rule,
     bridge_rule,
     loss_rule,
 )

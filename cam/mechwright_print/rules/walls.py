@@ -75,13 +75,11 @@ class _Walls:
 def _walls(shape: "shapely.Geometry") -> _Walls:
     rings = shapely.get_rings(shapely.get_parts(shapely.orient_polygons(shape)))
     found = []
-    for number, ring in enumerate(rings):
+    for ring in rings:
         corners = np.asarray(ring.coords)
         ends = np.stack((corners[:-1], corners[1:]), axis=1)
-        ends = ends[np.hypot(*(ends[:, 1] - ends[:, 0]).T) > 0]
-        found.append((ends, np.full(len(ends), number)))
-    ends, number = (np.concatenate(each) for each in zip(*found, strict=True))
-    return _Walls(ends, number)
+        found.append(ends[np.hypot(*(ends[:, 1] - ends[:, 0]).T) > 0])
+    return _Walls(np.concatenate(found), np.repeat(np.arange(len(found)), [len(ends) for ends in found]))
 
 
 def _narrowest(shape: "shapely.Geometry", below: float, kind: Literal["wall", "gap"]) -> Narrow | None:
