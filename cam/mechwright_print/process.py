@@ -39,6 +39,15 @@ class Printing(Process):
             lost.append(f"the threads of {', '.join(threads)}")
         return lost
 
+    def correction(self, off: float, walls: str) -> str:
+        """Deviations in the file of the printer."""
+        said = []
+        if walls != "outside":
+            said.append(f"add {-2 * off:+.4f} to deviation.hole")
+        if walls != "inside":
+            said.append(f"add {2 * off:+.4f} to deviation.wall")
+        return " and ".join(said)
+
     def seconds(self, part: Part, build: Build) -> float | None:
         """Filament by its volume and the printer's flow."""
         from mechwright_print.job.print_job import PrintJob

@@ -1,5 +1,7 @@
 """The mechanism over the printer's spread: plays that jam are refused with the clearance that works."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import tomlkit
@@ -11,8 +13,8 @@ from mechwright_print.as_made import MIDDLE, AsPrinted, printed_tolerances
 from mechwright_print.job.print_job import PrintJob
 from mechwright_print.rules.running import backlash_rule, running_rule
 
-GENEVA = open("examples/geneva-straight.toml").read()  # noqa: SIM115
-GEARS = open("examples/spur-gears.toml").read()  # noqa: SIM115
+GENEVA = Path("examples/geneva-straight.toml").read_text()
+GEARS = Path("examples/spur-gears.toml").read_text()
 MEASURED = {"measured": True, "spread": 0.02}
 
 
@@ -79,7 +81,7 @@ def test_teeth_have_the_backlash_of_their_printer(tmp_path):
 def test_reaming_takes_the_play_of_the_holes_away(tmp_path):
     halves = []
     for fits in ("open", "ream"):
-        asked = build(tmp_path, open("examples/four-bar-double-rocker.toml").read(), MEASURED, fits=fits)  # noqa: SIM115
+        asked = build(tmp_path, Path("examples/four-bar-double-rocker.toml").read_text(), MEASURED, fits=fits)
         halves.append([one.half for one in asked.made(AsPrinted).outputs])
     assert halves[0]
     assert all(after < before for before, after in zip(*halves, strict=True))

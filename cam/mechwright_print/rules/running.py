@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from mechwright.contracts.finding import Change, Finding
 from mechwright.designs.text import toml
 from mechwright.pipeline import Build
+from mechwright.pipeline.tolerances.compared import ComparedOutput
 from mechwright.pipeline.tolerances.units import percent, shown, shown_unit
 from mechwright.tolerances import TOLERANCES
-from mechwright_print.as_made import AsPrinted, PrintedOutput
+from mechwright_print.as_made import AsPrinted
 from mechwright_print.job.print_job import PrintJob
 from mechwright_print.rules.holes import MEASURE
 
@@ -55,7 +56,7 @@ def running_rule(build: Build, job: PrintJob) -> Iterator[Finding]:
             yield _miss(job, one)
 
 
-def _jam(build: Build, job: PrintJob, one: PrintedOutput, count: int) -> Finding:
+def _jam(build: Build, job: PrintJob, one: ComparedOutput, count: int) -> Finding:
     """One finding for all plays: the same room helps them."""
     unit, more = one.output.unit, f", and {count - 1} more" if count > 1 else ""
     reamed: Change = {} if job.settings.fits == "ream" else {"print.fits": "ream"}
@@ -75,7 +76,7 @@ def _jam(build: Build, job: PrintJob, one: PrintedOutput, count: int) -> Finding
     )
 
 
-def _miss(job: PrintJob, one: PrintedOutput) -> Finding:
+def _miss(job: PrintJob, one: ComparedOutput) -> Finding:
     unit = one.output.unit
     proposed: tuple[Change, ...] = () if job.settings.fits == "ream" else ({"print.fits": "ream"},)
     kind = Finding.error if job.printer.measured else Finding.warning
