@@ -1,4 +1,4 @@
-"""What is tried with every change, and what only by night, when MECHWRIGHT_NIGHT is set."""
+"""What is tried with every change, what in CI besides, and what only by night: MECHWRIGHT_CI, MECHWRIGHT_NIGHT."""
 
 import os
 from collections.abc import Sequence
@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 
 NIGHT = bool(os.environ.get("MECHWRIGHT_NIGHT"))
+IN_CI = NIGHT or bool(os.environ.get("MECHWRIGHT_CI"))
 
 by_night = pytest.mark.skipif(not NIGHT, reason="by night, with MECHWRIGHT_NIGHT=1")
 """For a test that shows on more cases what another shows on a few."""
 
-in_ci = pytest.mark.skipif(not NIGHT, reason="in CI besides, with MECHWRIGHT_NIGHT=1")
+in_ci = pytest.mark.skipif(not IN_CI, reason="in CI besides, with MECHWRIGHT_CI=1")
 """For tests with whole programs around ours, as an installed plugin or another one's planner, and for those that
 compile many kernels: CI runs their files besides the README's command."""
 

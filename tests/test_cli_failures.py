@@ -171,3 +171,12 @@ def test_an_output_that_is_no_text_is_refused(tmp_path: Path, command_line: Run)
     code, _, err = command_line("new", "four-bar", "-o", tmp_path / os.fsdecode(b"n\xff.toml"))
     assert (code, "the name is no text in UTF-8; give another name" in err) == (2, True)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("said", ["x", "", "-1", "1.5", "9" * 20, "\u0665"])
+def test_a_date_that_libraries_cannot_read_blames_the_environment(
+    said: str, command_line: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", said)
+    code, _, err = command_line("check", EXAMPLE)
+    assert (code, err.startswith("mechwright: SOURCE_DATE_EPOCH: ")) == (2, True)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import typer.main
-from by_night import by_night
+from by_night import in_ci
 
 from mechwright.cli.app import make_app
 
@@ -66,7 +66,7 @@ def test_sessions_have_commands():
         assert "file" in kinds
 
 
-@by_night
+@in_ci
 @pytest.mark.parametrize("name", ["tutorial", "how-to"])
 def test_what_a_page_shows_is_what_is_printed(name, tmp_path):
     paths = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}

@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from by_night import by_night
+from by_night import in_ci
 from strokes import bytes_of, swept
 from typer.testing import CliRunner
 
@@ -90,7 +90,7 @@ def test_the_example_and_the_page_on_it_are_one_study():
     assert named == set(Asked.model_fields)
 
 
-@by_night
+@in_ci
 def test_the_example_gives_designs_that_build(tmp_path):
     pytest.importorskip("pyarrow", reason="pip install 'mechwright[scale]'")
     text = (ROOT / "examples" / "four-bar-study.toml").read_text()

@@ -13,7 +13,7 @@ from threading import Thread
 import pytest
 import strokes
 import sweep_in_slices
-from by_night import by_night
+from by_night import in_ci
 from listed_tasks import ListedTasks
 from strokes import bytes_of, swept
 
@@ -28,7 +28,7 @@ from mechwright.studies.task import Source, Task
 from mechwright.worker_pool.pool import WorkerPool
 
 
-@by_night
+@in_ci
 def test_processes_make_the_same_bytes_as_one(tmp_path):
     assert swept(tmp_path / "one", "--workers", "1").exit_code == 0
     assert swept(tmp_path / "two", "--workers", "2").exit_code == 0
@@ -75,7 +75,7 @@ def worker_of(cluster, port, folder, more=None):
     )  # fmt: skip
 
 
-@by_night
+@in_ci
 def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_scheduler_ends(tmp_path, cluster):
     assert swept(tmp_path / "one", "--workers", "1", text="keep = 'all'").exit_code == 0
     port = 20000 + os.getpid() % 20000
@@ -102,7 +102,7 @@ def test_a_cluster_makes_the_same_bytes_though_a_worker_is_killed_and_the_schedu
     assert bytes_of(tmp_path / "one") == bytes_of(tmp_path / "two")
 
 
-@by_night
+@in_ci
 def test_a_cluster_shares_one_batch_though_a_worker_is_killed_and_the_scheduler_ends(tmp_path, cluster):
     path, port = tmp_path / "forces.toml", 20000 + (os.getpid() + 13) % 20000
     path.write_text(sweep_in_slices.TEXT.format(more=""))
@@ -183,7 +183,7 @@ def test_a_worker_that_comes_later_with_another_program_makes_no_table():
         Source("{}", "strokes.toml", "slider-crank").alike("python 0", Task("part-000000", 0, 0))
 
 
-@by_night
+@in_ci
 def test_a_worker_with_another_program_is_refused_in_one_line(tmp_path, cluster):
     other = tmp_path / "other" / "mechwright"
     shutil.copytree(Path(mechwright.__file__).parent, other, ignore=shutil.ignore_patterns("__pycache__"))
@@ -199,7 +199,7 @@ def test_a_worker_with_another_program_is_refused_in_one_line(tmp_path, cluster)
     )
 
 
-@by_night
+@in_ci
 def test_the_end_of_a_scheduler_is_one_line(tmp_path, cluster, monkeypatch, capfd):
     monkeypatch.setattr(studies_cluster, "PATIENCE", 5.0)
     port = 20000 + (os.getpid() + 29) % 20000
@@ -228,7 +228,7 @@ def test_the_end_of_a_scheduler_is_one_line(tmp_path, cluster, monkeypatch, capf
     assert "Traceback" not in capfd.readouterr().err
 
 
-@by_night
+@in_ci
 def test_an_address_where_nobody_answers_is_one_line(tmp_path, monkeypatch):
     pytest.importorskip("distributed", reason="pip install 'mechwright[scale]'")
     monkeypatch.setattr(studies_cluster, "PATIENCE", 3.0)

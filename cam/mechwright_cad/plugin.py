@@ -11,9 +11,11 @@ from mechwright_cad.exporters import (
     DxfExporter,
     GlbExporter,
     MjcfExporter,
+    SdfExporter,
     StepExporter,
     StlExporter,
     ThreeMfExporter,
+    UrdfExporter,
 )
 from mechwright_cad.form_drawing.page import FormDrawings
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
@@ -33,6 +35,8 @@ def mechwright_register() -> list[type[Plugin]]:
         ThreeMfExporter,
         GlbExporter,
         MjcfExporter,
+        UrdfExporter,
+        SdfExporter,
         SolidFiles,
         MotionPage,
         BillOfMaterials,

@@ -8,7 +8,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from by_night import by_night
+from by_night import in_ci
 from test_live import Page
 from test_live_browser import CHROMIUM, browser, until
 
@@ -39,7 +39,7 @@ alpha_b_max = "least"
 """
 
 pytestmark = [
-    by_night,
+    in_ci,
     pytest.mark.skipif(CHROMIUM is None or AXE is None, reason="no chromium, or no axe-core"),
 ]
 

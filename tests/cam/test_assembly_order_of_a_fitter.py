@@ -135,3 +135,12 @@ def test_a_spring_is_hooked_once_its_lever_stands_in_both_bearings():
         k for k, s in enumerate(plan.steps) if any(plan.bodies[m].part.name == "screw-m5x20" for m in s.moved)
     ]
     assert len(plan.steps[at].moved) == 4, "one flange, one step"
+
+
+def test_dots_are_punched_on_the_bench():
+    plan, said, _ = guide("elliptic-pair-machine")
+    for k, text in enumerate(said):
+        puts = any(plan.bodies[n].part.name == "gear" for n in plan.steps[k].moved[:1])
+        brought = puts and "Put gear (" in text
+        assert ("centre-punch the top face of gear, at x " in text) is brought, text
+    assert sum("On the bench first" in one for one in said) == 2

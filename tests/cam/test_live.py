@@ -147,6 +147,22 @@ def test_what_is_drawn_while_one_drags_waits_for_no_frame():
         assert (moved < high).all()
 
 
+def test_the_mechanism_is_shown_before_its_frame():
+    session = Session(ROOT / "examples" / "geneva-machine.toml", host())
+    design = session.changed({"parameters.speed": 32.0}, settle=False)
+    found = answers.mechanism(design)["scene"]
+    assert "surroundings" not in vars(design), "a frame takes seconds"
+    own = {part.name for part in design.family.parts(design.params)}
+    assert {one["name"] for one in found["meshes"]} == own
+    whole = answers.parts(design)["scene"]
+    assert own < {one["name"] for one in whole["meshes"]}
+
+
+def test_without_a_frame_all_parts_come_at_once():
+    design = load(ROOT / "examples" / "elliptic-pair.toml", host())
+    assert answers.mechanism(design) == {"scene": None}
+
+
 def test_links_are_shown_where_no_plate_moves():
     design = load(ROOT / "examples" / "spherical-crank-rocker.toml", host())
     found = answers.parts(design)["scene"]

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from by_night import by_night
+from by_night import in_ci
 from test_live import Page
 
 from mechwright.designs.design import load
@@ -15,7 +15,7 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ROOT = Path(__file__).parents[2]
 SLIDER = '[data-key="parameters.eccentricity"] input[type=range]'
 
-pytestmark = [by_night, pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")]
+pytestmark = [in_ci, pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")]
 
 
 def until(page, script):

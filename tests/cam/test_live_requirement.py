@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 import pytest
-from by_night import by_night
+from by_night import in_ci
 from test_live import Page
 
 from mechwright.designs.requirement import load_requirement
@@ -142,7 +142,7 @@ def test_what_is_wrong_is_told(wishing):
             wishing.asks[ask](body)
 
 
-@by_night
+@in_ci
 def test_the_server_shows_a_requirement(tmp_path):
     path = tmp_path / "stroke.toml"
     shutil.copy(EXAMPLES / f"{STROKE}.toml", path)

@@ -12,7 +12,7 @@ from mechwright import Channel, Poses, host
 from mechwright.designs.design import load
 from mechwright.machine import MachineSettings, drive_of
 from mechwright.machine.drive import GRAVITY, SAMPLES
-from mechwright_cad.exporters.mjcf import assembly as mjcf
+from mechwright_cad.exporters.simulation import mjcf
 
 ROOT = Path(__file__).parents[2]
 EVERY = 60

@@ -11,7 +11,7 @@ from mujoco_witness import Witness, follow, mujoco, torques
 
 from mechwright import GROUND, Arc, Instance, Joint, Line, Loop, Motion, Outline, Part, Poses, host
 from mechwright.designs.design import load
-from mechwright_cad.exporters.mjcf import assembly as mjcf
+from mechwright_cad.exporters.simulation import mjcf
 from mechwright_cad.solids.inertia import body_moments
 from mechwright_four_bar.family import FourBars
 from mechwright_slider_crank.family import SliderCrankFamily

@@ -11,7 +11,7 @@ from by_night import by_night
 from mujoco_witness import mujoco
 
 from mechwright import Bore, Loop, Outline, Part, Pocket, Profile, circle
-from mechwright_cad.exporters.mjcf import assembly as mjcf
+from mechwright_cad.exporters.simulation import mjcf
 from mechwright_cad.solids.convex import CHORD, convex_pieces, prisms
 from mechwright_geneva.defaults.dimensions import mechanism_of
 from mechwright_geneva.family import Geneva

@@ -8,7 +8,7 @@ import pytest
 
 from mechwright import host
 from mechwright.designs.design import load
-from mechwright_cad.exporters.mjcf.assembly import assembly
+from mechwright_cad.exporters.simulation.mjcf import assembly
 
 ROOT = Path(__file__).parents[2]
 LOOKS = {"asset", "geom", "visual"}

@@ -15,8 +15,8 @@ from mechwright.contracts import materials
 from mechwright.contracts.joint import fixed
 from mechwright.errors import GeometryError, KinematicsError
 from mechwright_cad.exporters import MjcfExporter
-from mechwright_cad.exporters.mjcf import assembly as mjcf
-from mechwright_cad.exporters.mjcf.tree import tree_of
+from mechwright_cad.exporters.simulation import mjcf
+from mechwright_cad.exporters.simulation.tree import tree_of
 from mechwright_cad.solids.inertia import Inertia, mass_moments
 
 ROOT = Path(__file__).parents[2]
@@ -175,7 +175,7 @@ import sys
 from pathlib import Path
 from mechwright import host
 from mechwright.designs.design import load
-from mechwright_cad.exporters.mjcf import assembly as mjcf
+from mechwright_cad.exporters.simulation import mjcf
 design = load(Path(sys.argv[1]), host())
 motion = design.family.solve(design.params, 37)
 sys.stdout.buffer.write(mjcf.assembly(design.name, design.parts(), motion, 3))

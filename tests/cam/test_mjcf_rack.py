@@ -6,7 +6,7 @@ import pytest
 from mujoco_witness import Witness, mujoco
 
 from mechwright import KinematicsError
-from mechwright_cad.exporters.mjcf import assembly as mjcf
+from mechwright_cad.exporters.simulation import mjcf
 from mechwright_spur_gears.family import SpurGears
 
 RACKS = SpurGears()

@@ -1,5 +1,6 @@
 """Output folders change as a whole or not at all."""
 
+import hashlib
 import json
 import os
 from pathlib import Path
@@ -8,7 +9,7 @@ import pytest
 
 from mechwright.errors import OutputError
 from mechwright.output import folder as files
-from mechwright.output.folder import MANIFEST, Output, check_folder, write_folder, write_new
+from mechwright.output.folder import MANIFEST, Output, check_folder, rewrite, write_folder, write_new
 
 
 def run(target: Path, command: str, **contents: str) -> None:
@@ -165,3 +166,11 @@ def test_a_new_file_does_not_replace_one(tmp_path: Path) -> None:
         write_new(tmp_path / "none" / "d.toml", "1")
     assert names(tmp_path) == {"d.toml"}
     assert not os.path.lexists(tmp_path / "none")
+
+
+def test_a_byte_order_mark_stays_where_a_file_is_rewritten(tmp_path: Path) -> None:
+    path = tmp_path / "design.toml"
+    for old in (b"\xef\xbb\xbfa = 1\n", b"a = 1\n"):
+        path.write_bytes(old)
+        rewrite(path, "a = 2\n", known=hashlib.sha256(old).hexdigest())
+        assert path.read_bytes() == old.replace(b"1", b"2")

@@ -4,7 +4,7 @@ from collections.abc import Collection, Mapping
 from typing import ClassVar
 
 import pytest
-from by_night import NIGHT
+from by_night import IN_CI, NIGHT
 
 from mechwright.testing import FamilyContract
 
@@ -25,10 +25,10 @@ class DayContract(FamilyContract):
 
     @pytest.fixture(autouse=True)
     def _by_day(self, request):
-        if self.compiles and not NIGHT and request.function.__name__ == "test_evaluate":
-            pytest.skip("compiled by night, with MECHWRIGHT_NIGHT=1")
-        if request.function.__name__ in self.ci and not NIGHT:
-            pytest.skip("in CI besides, with MECHWRIGHT_NIGHT=1")
+        if self.compiles and not IN_CI and request.function.__name__ == "test_evaluate":
+            pytest.skip("compiled in CI besides, with MECHWRIGHT_CI=1")
+        if request.function.__name__ in self.ci and not IN_CI:
+            pytest.skip("in CI besides, with MECHWRIGHT_CI=1")
         if request.function.__name__ in self.nights and not NIGHT:
             pytest.skip("by night, with MECHWRIGHT_NIGHT=1")
         waits = self.night.get(request.function.__name__, ())

@@ -38,10 +38,10 @@ function drawNow(time) {
 }
 const legend = document.getElementById("legend"), legendOf = legendIn(legend, shown, kept);
 if (!shown.size) legend.remove();
-if (data.bare && !data.ghost || data.missing.length) {
+if (data.making && !data.bare || data.bare && !data.ghost || data.missing.length) {
   const note = document.getElementById("note");
   note.hidden = false;
-  if (data.making) note.textContent = "The parts are being made. Meanwhile joints and links are shown as points and lines.";
+  if (data.making) note.textContent = data.making;
   else if (data.bare) note.textContent = "Joints and links as points and lines: there are no parts to draw.";
   else note.textContent = `Not drawn, because they take the CAD kernel: ${data.missing.join(", ")}. mechwright build writes this page with them.`;
 }

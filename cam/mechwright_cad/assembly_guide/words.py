@@ -8,6 +8,7 @@ from mechwright.contracts.axial_stack import AxialStack
 from mechwright.contracts.bodies import rigid
 from mechwright.contracts.fitting_marks import FittingMark
 from mechwright.contracts.marking import FITTING_MARKS
+from mechwright.contracts.part import Part
 from mechwright.mechanics.mating.rounds import Match, matches, rounds_of
 from mechwright.mechanics.strength.tightening import torque_text
 from mechwright_cad.assembly_guide.adjusting import Adjusting
@@ -97,7 +98,12 @@ class Words:
         plan = self.plan
         found = matches(plan.bodies, plan.sample, step.moved, step.onto)
         turn = self._handling.turn(step)
-        said = [*([turn] if turn else []), self._moves(step, found), *self._by_hand(step)]
+        said = [
+            *([turn] if turn else []),
+            *self._punched(step),
+            self._moves(step, found),
+            *self._by_hand(step),
+        ]
         said += self._from_below(step)
         said += facings(plan, step, self.name)
         aligned = list(self._adjusting.aligning(step))
@@ -119,11 +125,10 @@ class Words:
         there = [(k, plan.bodies[k].part) for k in (*step.onto, *step.moved)]
         said += dict.fromkeys(filter(None, (keyed(plan.bodies[k].part, there, self.name) for k in new)))
         said += dict.fromkeys(
-            sentence
+            mark.note
             for k in (*step.onto, *step.moved)
             for mark in plan.bodies[k].part.marks
             if self._marked(k, mark) is step
-            for sentence in self._mark(k, mark)
         )
         hooked = self._adjusting.hooked
         if (
@@ -158,13 +163,18 @@ class Words:
             return self.plan.steps[hooked - 1]
         return (self._first if mark.joins else self._last).get(k)
 
-    def _mark(self, k: int, mark: FittingMark) -> Iterator[str]:
-        """What a mark tells, and where its dots are punched in a part that has none engraved."""
-        yield mark.note
-        part = self.plan.bodies[k].part
-        if mark.dots and not any(one.name == FITTING_MARKS for one in part.details):
-            places = " and ".join(f"x {x:.1f}, y {y:.1f}" for x, y in mark.dots)
-            yield f"{part.name} has no dots yet: centre-punch its top face at {places} mm from its axis."
+    def _punched(self, step: Step) -> Iterator[str]:
+        """Where dots are punched in parts that have none engraved, while they still lie on the bench."""
+        for k in (*step.onto, *step.moved):
+            part = self.plan.bodies[k].part
+            first = self._first.get(k, self.plan.steps[0]) is step
+            dots = [mark.dots for mark in part.marks if mark.dots and first and not _has_dots(part)]
+            if dots:
+                places = "; and ".join(" and ".join(f"x {x:.1f}, y {y:.1f}" for x, y in one) for one in dots)
+                yield (
+                    f"On the bench first: centre-punch the top face of {part.name}, at {places} mm from "
+                    "its axis."
+                )
 
     def _by_hand(self, step: Step) -> Iterator[str]:
         both = self._handling.in_turn(step)
@@ -381,3 +391,8 @@ class Words:
 
     def _head(self, k: int) -> str:
         return self._heads[self.plan.bodies[k].instance.body]
+
+
+def _has_dots(part: Part) -> bool:
+    """Whether the dots of its fitting marks are engraved."""
+    return any(one.name == FITTING_MARKS for one in part.details)

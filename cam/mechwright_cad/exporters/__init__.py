@@ -5,9 +5,11 @@ from mechwright_cad.exporters.formats import (
     DxfExporter,
     GlbExporter,
     MjcfExporter,
+    SdfExporter,
     StepExporter,
     StlExporter,
     ThreeMfExporter,
+    UrdfExporter,
 )
 
 __all__ = [
@@ -15,7 +17,9 @@ __all__ = [
     "DxfExporter",
     "GlbExporter",
     "MjcfExporter",
+    "SdfExporter",
     "StepExporter",
     "StlExporter",
     "ThreeMfExporter",
+    "UrdfExporter",
 ]

@@ -108,7 +108,7 @@ class MjcfExporter(Exporter):
 
     name = "mjcf"
     suffix = ".mjcf.xml"
-    modules = ("mechwright_cad.exporters.mjcf.assembly",)
+    modules = ("mechwright_cad.exporters.simulation.mjcf",)
 
     def takes(self, part: "Part") -> bool:  # noqa: ARG002
         """None by itself."""
@@ -119,6 +119,42 @@ class MjcfExporter(Exporter):
 
     def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
         """One body per body of the motion, with its parts."""
-        from mechwright_cad.exporters.mjcf import assembly
+        from mechwright_cad.exporters.simulation import mjcf
 
-        return assembly.assembly(name, parts, motion, sample)
+        return mjcf.assembly(name, parts, motion, sample)
+
+
+class UrdfExporter(Exporter):
+    """The mechanism as URDF, for robots: a tree of links, cut at the pins that close loops. It shows STL."""
+
+    name = "urdf"
+    suffix = ".urdf"
+    samples = 361
+    modules = ("mechwright_cad.exporters.simulation.urdf",)
+
+    def takes(self, part: "Part") -> bool:  # noqa: ARG002
+        """None by itself."""
+        return False
+
+    def part(self, part: "Part") -> None:
+        """Nothing: a part by itself does not move."""
+
+    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
+        """One link per body of the motion, with its parts."""
+        from mechwright_cad.exporters.simulation import urdf
+
+        return urdf.assembly(name, parts, motion, sample)
+
+
+class SdfExporter(UrdfExporter):
+    """The mechanism as SDF, for Gazebo: links and all joints, those that close loops too. It shows STL."""
+
+    name = "sdf"
+    suffix = ".sdf"
+    modules = ("mechwright_cad.exporters.simulation.sdf",)
+
+    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
+        """One link per body of the motion, with its parts."""
+        from mechwright_cad.exporters.simulation import sdf
+
+        return sdf.assembly(name, parts, motion, sample)

@@ -9,6 +9,7 @@ import numpy as np
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
+from mechwright.contracts.table import Table
 from mechwright.contracts.target import Target
 from mechwright.designs.design import Design, load
 from mechwright.errors import MechwrightError
@@ -42,6 +43,25 @@ def _with_targets(design: Design, found: Mapping[str, Any]) -> Answer:
     """A picture of a design that has room for its places, and these."""
     places = targets(design)
     return {**still(places, found), "targets": drawn(places)} if places else dict(found)
+
+
+def mechanism(design: Design) -> Answer:
+    """The mechanism's own parts in motion, before what tables put around it is made; empty without a table.
+
+    A tenth of a second, where a frame takes ten times that. It is empty too where no plate moves, or the
+    family's parts cannot be made: :func:`parts` tells what is wrong.
+    """
+    around = any(
+        type(reader).surroundings is not Table.surroundings and reader.name in design.content
+        for reader in design.readers
+    )
+    if not around or errors(design.family.check(design.params), Stage.PARTS):
+        return {"scene": None}
+    solved = design.family.solve(design.params, PAGE_SAMPLES)
+    made = design.family.parts(design.params)
+    if design.family.moves and not _seen(made, solved):
+        return {"scene": None}
+    return {"scene": _with_targets(design, scene(made, solved, solids=False, space=True))}
 
 
 def parts(design: Design) -> Answer:

@@ -32,11 +32,12 @@ class Session(Following):
 
     @property
     def asks(self) -> dict[str, Answering]:
-        """Motion, parts, remedies, and builds."""
+        """Motion, the mechanism's parts, all parts, remedies, and builds."""
         return {
             **self.common(),
             "motion": lambda body: answers.motion(self.changed(change_of(body), settle=False)),
             "drag": self._drag,
+            "mechanism": lambda body: answers.mechanism(self.changed(change_of(body), settle=False)),
             "parts": lambda body: answers.parts(self.changed(change_of(body))),
             "remedies": lambda body: {"findings": self.remedies(change_of(body))},
             "build": self._build,

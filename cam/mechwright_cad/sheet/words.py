@@ -7,7 +7,7 @@ FINE, FAIR = "Ra 0.8", "Ra 1.6"
 """Of turned seats of bearings, and of what fits, slides or rolls, µm."""
 
 GENERAL = (
-    "Dimensions in mm, tolerances ISO 2768-mK, principle ISO 8015",
+    "Dimensions in mm, tolerances ISO 2768-m, principle ISO 8015",
     f"Surfaces {PLAIN} (ISO 21920), edges -0.2, inside +0.2 (ISO 13715)",
 )
 """What holds for a whole part."""

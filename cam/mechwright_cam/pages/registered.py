@@ -177,6 +177,7 @@ def setup_sheets(build: Build) -> dict[str, str]:
         files=files,
         bill=BILL if written else "",
         guide=GUIDE if AssemblyGuide().shown(build) else "",
+        played=JOB,
     )
     return made
 

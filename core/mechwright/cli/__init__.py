@@ -6,6 +6,9 @@ import sys
 from contextlib import suppress
 from typing import NoReturn
 
+LONGEST_EPOCH = 11
+"""Digits of a date in seconds up to the year 5138; libraries end at 9999."""
+
 
 def main() -> None:
     """Run the command line; errors become a line each and exit code 2, or 1 for a failed proof.
@@ -56,6 +59,7 @@ def _run() -> None:
     try:
         try:
             with failure.errors_in_lines():
+                _require_epoch()
                 make_app()()
         finally:
             _flush()
@@ -84,3 +88,15 @@ def _flush() -> None:
         silent(sys.stdout.fileno())
         if not isinstance(error, BrokenPipeError):
             raise
+
+
+def _require_epoch() -> None:
+    """Raise DesignError where libraries cannot read the date that the environment gives them."""
+    from mechwright.errors import DesignError
+
+    said = os.environ.get("SOURCE_DATE_EPOCH")
+    if said is not None and not (said.isascii() and said.isdigit() and len(said) <= LONGEST_EPOCH):
+        raise DesignError(
+            f"SOURCE_DATE_EPOCH: {said[:40]!r} in the environment is no whole number of seconds since 1970; "
+            "unset it, or correct it"
+        )

@@ -50,7 +50,7 @@ Also = Annotated[
     str,
     typer.Option(
         metavar="FORMATS",
-        help="More formats for the solids, such as stl,3mf,glb,mjcf.",
+        help="More formats for the solids, such as stl,3mf,glb,mjcf,urdf.",
         autocompletion=completing.formats,
     ),
 ]

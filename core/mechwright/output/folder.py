@@ -1,5 +1,6 @@
 """Writing output folders: all of the new files or all of the old ones, never a mixture."""
 
+import codecs
 import ctypes
 import hashlib
 import json
@@ -291,7 +292,8 @@ def rewrite(path: Path, text: str, like: Path | None = None, known: str | None =
     """Write a file in one step, behind a link, with the rights of ``like``, or those that it has itself.
 
     Raises OutputError where it cannot be written, or is no more what has the SHA-256 ``known``: of several
-    that rewrite one state, threads or processes, one can. Without ``known`` the file is a new one.
+    that rewrite one state, threads or processes, one can. Without ``known`` the file is a new one. A byte
+    order mark of the old file stays.
     """
     real = path.resolve()
 
@@ -304,6 +306,8 @@ def rewrite(path: Path, text: str, like: Path | None = None, known: str | None =
             )
 
     permitted()
+    if known is not None and read_bytes(real, anew=True).startswith(codecs.BOM_UTF8):
+        text = "\ufeff" + text.removeprefix("\ufeff")
     _write(real, text, permitted, (like or path).stat().st_mode & 0o777)
 
 

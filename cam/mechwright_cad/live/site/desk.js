@@ -1,6 +1,6 @@
 // The desk: what is changed, undone, saved and built; and the picture that follows.
 const button_ = (id) => document.getElementById(id);
-let known = null, change = {}, past = [], future = [], settled = {}, ghost = null, kept = () => ({}), end = new AbortController(), picture = null;
+let known = null, change = {}, past = [], future = [], settled = {}, ghost = null, kept = () => ({}), end = new AbortController(), picture = null, complete = null;
 
 function draw(scene, more) {
   const before = kept();
@@ -17,6 +17,7 @@ function present_(scene, asked) {
   scene.targets ? drawWhenFree(scene) : draw(scene);
 }
 const parts = newest("parts", (found, asked) => {
+  complete = asked.change;
   if (found.scene) present_(found.scene, asked);
   found.unmade ? say(found.unmade, true) : mended();
   findings(found.findings, false, follow);
@@ -26,10 +27,16 @@ const remedies = newest("remedies", (found, asked) => {
   if (!found.findings) document.getElementById("waiting").textContent = "Another page has asked for remedies meanwhile; change something to ask again.";
   else if (same(asked.change, change)) findings(found.findings, true, follow);
 }, () => { document.getElementById("waiting").textContent = ""; });
+// What a table puts around the mechanism takes longer than the mechanism; whichever comes later stays.
+const mechanism = newest("mechanism", (found, asked) => {
+  if (found.scene && same(asked.change, change) && !same(asked.change, complete)) present_({ ...found.scene, making: "The frame and what is in it are being made." }, asked);
+}, () => {});
 const motion = newest("motion", (found, asked) => {
   // While plates are drawn, links go over them; what the plates are comes a moment later.
-  present_(ghost || !picture || !picture.layers || picture.bare ? { ...found.scene, making: true } : { ...found.scene, ghost: picture }, asked);
+  present_(ghost || !picture || !picture.layers || picture.bare ? { ...found.scene, making: "The parts are being made. Meanwhile joints and links are shown as points and lines." } : { ...found.scene, ghost: picture }, asked);
   mended();
+  complete = null;
+  mechanism(asked);
   parts(asked);
 }, failed);
 function failed(error) {

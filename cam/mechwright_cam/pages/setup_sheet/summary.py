@@ -32,13 +32,14 @@ def summary_html(
     files: Mapping[str, Sequence[str]] = MappingProxyType({}),
     bill: str = "",
     guide: str = "",
+    played: str = "",
 ) -> str:
     """The page of a whole job; it leads to the sheet of each program.
 
     For each program there are its job, itself and its proof, as for
     :func:`mechwright_cam.pages.setup_sheet.setup_html`; ``files`` has the names of its files by its own name.
     ``bill`` is the name of the bill of materials, ``guide`` that of the page of the assembly, where they are
-    written.
+    written, ``played`` the ending of the pages that play the programs.
     """
     to = Lengths(control.units)
     rows = [
@@ -62,6 +63,7 @@ def summary_html(
             design=design,
             bill=bill,
             guide=guide,
+            played=played,
             table_words=control.table_words(tool_table) if tool_table else "",
             rows=rows,
             revision=sheet.revision,
@@ -84,6 +86,7 @@ def _row(
     return {
         "part": job.part.name,
         "side": job.side,
+        "name": program.name,
         "sheet": program.name + SHEET,
         "file_names": names,
         "file_name": span(names),

@@ -8,11 +8,15 @@ loop
     A pin between two bodies that both hang on the ground already.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
-from mechwright.errors import KinematicsError
+from mechwright.contracts.motion import Motion
+from mechwright.errors import GeometryError, KinematicsError
 
 
 @dataclass(frozen=True)
@@ -38,7 +42,7 @@ class Tree:
     loops: Mapping[str, Joint]
 
 
-def tree_of(joints: Mapping[str, Joint], bodies: Mapping[str, object]) -> Tree:
+def tree_of(joints: Mapping[str, Joint], bodies: Iterable[str]) -> Tree:
     """The tree of bodies. What does not turn is in it first, so that only pins close loops.
 
     Raises
@@ -87,3 +91,26 @@ def _branches(chosen: dict[str, Joint]) -> tuple[Branch, ...]:
                 reached.append(body)
                 found.append(Branch(body, parent, name, joint))
     return tuple(found)
+
+
+def frames_of(motion: Motion, sample: int) -> dict[str, Array]:
+    """Frames (4, 4) of all bodies and of the ground, mm."""
+    found: dict[str, Array] = {GROUND: np.eye(4)}
+    for body, poses in motion.poses.items():
+        found[body] = np.eye(4)
+        found[body][:3, :3], found[body][:3, 3] = poses.rotation[sample], poses.position[sample]
+    return found
+
+
+def check_masses(tree: Tree, masses: Mapping[str, float]) -> None:
+    """Refuse a body that moves, with all that is fixed to it, and weighs nothing."""
+    total = dict(masses)
+    for branch in reversed(tree.branches):
+        if branch.joint.kind == "fixed":
+            total[branch.parent] += total[branch.body]
+    for branch in tree.branches:
+        if branch.joint.kind != "fixed" and not total[branch.body] > 0:
+            raise GeometryError(
+                f"body {branch.body} moves and has no mass: no part is an instance of it or of what is fixed "
+                "to it; give it a part"
+            )

@@ -8,8 +8,8 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.joint import Joint
 from mechwright.errors import KinematicsError
-from mechwright_cad.exporters.mjcf.elements import METRES, SOLREF, element
-from mechwright_cad.exporters.mjcf.tree import Tree
+from mechwright_cad.exporters.simulation.elements import METRES, SOLREF, element
+from mechwright_cad.exporters.simulation.tree import Tree
 
 LEVER = 10.0
 """How far from a pin's place a second point keeps its axis, mm: the length of a usual bearing."""

@@ -19,6 +19,9 @@ SOLREF = [STIFF, 1.0]
 DIGITS = 15
 """Decimals of places and directions: 1e-15 m, and the rounding of a unit vector."""
 
+NOTHING = 1e-12
+"""Part of a body's largest inertia below which a product of inertia is rounding."""
+
 Value = str | float | Sequence[float] | Array
 
 
@@ -49,3 +52,8 @@ def relative(values: Sequence[float]) -> str:
 def corners(points: Array) -> str:
     """Corners (n, 3) of a mesh, mm, in metres, which MuJoCo keeps in single precision."""
     return " ".join(f"{x + 0.0:.9g}" for x in np.round(points * METRES, 10).ravel().tolist())
+
+
+def without_noise(tensor: Array) -> Array:
+    """A tensor of inertia (3, 3) whose products are 0 where they are rounding."""
+    return np.where(np.abs(tensor) < NOTHING * np.abs(tensor).max(), 0.0, tensor)

@@ -9,20 +9,24 @@ from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
-from mechwright.errors import GeometryError, KinematicsError
+from mechwright.errors import KinematicsError
 from mechwright_cad.bodies import bodies_of
 from mechwright_cad.exporters.mesh import part_mesh
-from mechwright_cad.exporters.mjcf.constraints import check_gears, write_constraints
-from mechwright_cad.exporters.mjcf.contacts import Placed, write_contacts
-from mechwright_cad.exporters.mjcf.elements import METRES, STEP, corners, element, relative
-from mechwright_cad.exporters.mjcf.tree import Branch, Tree, tree_of
+from mechwright_cad.exporters.simulation.elements import (
+    METRES,
+    STEP,
+    corners,
+    element,
+    relative,
+    without_noise,
+)
+from mechwright_cad.exporters.simulation.mjcf_constraints import check_gears, write_constraints
+from mechwright_cad.exporters.simulation.mjcf_contacts import Placed, write_contacts
+from mechwright_cad.exporters.simulation.tree import Branch, Tree, check_masses, frames_of, tree_of
 from mechwright_cad.solids.inertia import Inertia, body_moments
 
 TOUCH = 1e-8
 """How exactly distances of surfaces that touch are found, m; MuJoCo's own 1e-6 is a small clearance."""
-
-NOTHING = 1e-12
-"""Part of a body's largest inertia below which a product of inertia is rounding."""
 
 
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
@@ -44,7 +48,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     placed: dict[str, list[tuple[Part, Instance]]] = {body: [] for body in (GROUND, *motion.poses)}
     for one in bodies_of(parts, motion, sample):
         placed[one.instance.body].append((one.part, one.instance))
-    frames = _frames(motion, sample)
+    frames = frames_of(motion, sample)
     touching = [joint for joint in motion.joints.values() if joint.kind == "contact"]
     root, assets = _head(name, contact=bool(touching))
     for part in parts:
@@ -75,21 +79,12 @@ def _head(name: str, *, contact: bool) -> tuple[ET.Element, ET.Element]:
     return root, element(root, "asset")
 
 
-def _frames(motion: Motion, sample: int) -> dict[str, Array]:
-    """Frames (4, 4) of all bodies and of the ground, mm."""
-    found: dict[str, Array] = {GROUND: np.eye(4)}
-    for body, poses in motion.poses.items():
-        found[body] = np.eye(4)
-        found[body][:3, :3], found[body][:3, 3] = poses.rotation[sample], poses.position[sample]
-    return found
-
-
 def _bodies(
     root: ET.Element, tree: Tree, placed: Placed, frames: Mapping[str, Array]
 ) -> dict[str, ET.Element]:
     """Write all bodies with their masses, joints and looks."""
     moments = {body: body_moments((part, at.z) for part, at in here) for body, here in placed.items()}
-    _check_masses(tree, {body: float(found[3, 3]) for body, found in moments.items()})
+    check_masses(tree, {body: float(found[3, 3]) for body, found in moments.items()})
     bodies = {GROUND: element(root, "worldbody")}
     for branch in tree.branches:
         body = branch.body
@@ -108,23 +103,8 @@ def _bodies(
     return bodies
 
 
-def _check_masses(tree: Tree, masses: Mapping[str, float]) -> None:
-    """Refuse a body that moves, with all that is fixed to it, and weighs nothing."""
-    total = dict(masses)
-    for branch in reversed(tree.branches):
-        if branch.joint.kind == "fixed":
-            total[branch.parent] += total[branch.body]
-    for branch in tree.branches:
-        if branch.joint.kind != "fixed" and not total[branch.body] > 0:
-            raise GeometryError(
-                f"body {branch.body} moves and has no mass: no part is an instance of it or of what is fixed "
-                "to it; give it a part"
-            )
-
-
 def _inertial(body: ET.Element, inertia: Inertia) -> None:
-    tensor = inertia.tensor * METRES**2
-    tensor[np.abs(tensor) < NOTHING * np.abs(tensor).max()] = 0.0
+    tensor = without_noise(inertia.tensor * METRES**2)
     full = [float(tensor[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
     values = {"mass": relative([inertia.mass]), "fullinertia": relative(full)}
     element(body, "inertial", pos=inertia.centre * METRES, **values)

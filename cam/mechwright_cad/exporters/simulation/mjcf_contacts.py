@@ -10,7 +10,7 @@ from mechwright.contracts.joint import Joint
 from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError
 from mechwright_cad.exporters.mesh import part_mesh
-from mechwright_cad.exporters.mjcf.elements import METRES, SOLREF, corners, element
+from mechwright_cad.exporters.simulation.elements import METRES, SOLREF, corners, element
 from mechwright_cad.solids.convex import prisms
 
 Placed = Mapping[str, Sequence[tuple[Part, Instance]]]
