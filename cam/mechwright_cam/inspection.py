@@ -4,12 +4,14 @@ from collections.abc import Sequence
 
 from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.pipeline import PROGRAMS, Build, Inspection
+from mechwright.pipeline.process import MILL
 
 
 class Machinable(Inspection):
     """What control and cutters say of the parts."""
 
     name = "machining"
+    process = MILL
     stage = Stage.MACHINING
     order = 20
     doing = "drawings and programs"
@@ -26,6 +28,7 @@ class Proven(Inspection):
     """Whether each program can be planned, and is proven."""
 
     name = "proofs"
+    process = MILL
     stage = Stage.MACHINING
     needs = frozenset({PROGRAMS})
     order = 35
@@ -45,6 +48,7 @@ class Running(Inspection):
     """What the family says of the mechanism with its parts as the programs leave them."""
 
     name = "as-made"
+    process = MILL
     stage = Stage.OUTPUT
     needs = frozenset({PROGRAMS})
     order = 40

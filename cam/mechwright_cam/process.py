@@ -15,6 +15,11 @@ class Milling(Process):
         """Nothing: what no cutter makes is told by its own rules."""
         return None
 
+    def correction(self, off: float, walls: str) -> str:
+        """The wear of the cutter in the control, a radius."""
+        of = "" if walls == "all" else f" of the cutters of {walls} walls"
+        return f"set the wear of D{of} {-off:+.4f} mm from where it is, as a radius"
+
     def seconds(self, part: Part, build: Build) -> float | None:
         """The proof's time, where the build has made the program of that plate by itself."""
         from mechwright_cam.machining import Machining

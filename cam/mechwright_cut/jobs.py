@@ -14,11 +14,11 @@ from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.errors import DesignError
 from mechwright.geometry import Arc, Loop, Outline, circle
+from mechwright.geometry.packing import on_plate
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cut.settings.cut_settings import CutSettings
 from mechwright_cut.settings.figures import Kerf, Process
-from mechwright_plane.packing import plate_layout
 
 MOST = 400
 """Copies on one sheet at most: their number comes from a file, and each costs time."""
@@ -207,7 +207,7 @@ def nested(
     rim = settings.sheet.margin + gap / 2
     wanted = [sizes[id(one)] for one, _ in items]
     room = settings.sheet.length - 2 * rim, settings.sheet.width - 2 * rim
-    layout = plate_layout(wanted, *room, gap, True) if min(room) > 0 else None
+    layout = on_plate(wanted, *room, gap, True) if min(room) > 0 else None
     if layout is None:
         raise DesignError(_too_small(name, wanted, gap, rim, settings))
     pieces = []
@@ -229,7 +229,7 @@ def _too_small(
     sheet, scale = settings.sheet, 1.05
     while True:
         length, width = math.ceil(scale * sheet.length), math.ceil(scale * sheet.width)
-        if plate_layout(sizes, max(length - 2 * rim, 1e-3), max(width - 2 * rim, 1e-3), gap, True):
+        if on_plate(sizes, max(length - 2 * rim, 1e-3), max(width - 2 * rim, 1e-3), gap, True):
             return (
                 f"cut.sheet: the {len(sizes)} parts of {name} do not fit on {sheet.length:g} x "
                 f"{sheet.width:g} mm with {gap:g} mm between them; set "

@@ -1,6 +1,6 @@
 """Which parts go together on one plate, and where they lie on it.
 
-Rectangles around the parts are packed, largest first: see :mod:`mechwright_plane.packing`.
+Rectangles around the parts are packed, largest first: see :mod:`mechwright.geometry.packing`.
 """
 
 import math
@@ -15,6 +15,7 @@ from mechwright.contracts.file_names import free_name
 from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.part import Part, check_name
 from mechwright.errors import DesignError, MechwrightError
+from mechwright.geometry.packing import on_plate, open_layout
 from mechwright_cam.operations.channel import channel_width
 from mechwright_cam.planning.assign import Assignments
 from mechwright_cam.planning.in_hand import blanks
@@ -29,7 +30,6 @@ from mechwright_cam.shop.table import JobSettings
 from mechwright_cam.shop.tool import MILLS, widest_mill
 from mechwright_cam.shop.workshop_file import Shop
 from mechwright_plane.nest import Nest, Placed, make_nest
-from mechwright_plane.packing import open_layout, plate_layout
 
 NEST_NAME = "cam.nest.name"
 """The key of the design file that names a nest, and with it its files."""
@@ -210,7 +210,7 @@ def nest_of(
         beside = gap + WEB  # a channel and a frame on either side
         inside = stock.length - beside, stock.width - beside
         within = min(inside[0], room[0] - gap), min(inside[1], room[1] - gap)
-        layout = plate_layout(sizes, *within, gap, turn) or plate_layout(sizes, *inside, gap, turn)
+        layout = on_plate(sizes, *within, gap, turn) or on_plate(sizes, *inside, gap, turn)
         if layout is None:
             least = open_layout(sizes, gap, turn, room)
             raise DesignError(

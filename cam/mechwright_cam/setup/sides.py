@@ -6,18 +6,14 @@ from typing import Literal
 
 import shapely
 
-from mechwright.contracts.part import Bore, Feature, OpenProfile, Part, Pocket, Profile, is_outside
+from mechwright.contracts.part import Feature, Part, Pocket, is_outside
+from mechwright.contracts.underside import from_below
 from mechwright.errors import DesignError
-from mechwright.geometry.mirror import turned_over, turned_point, turned_segment
 from mechwright_cam.setup.job import LEVEL
 from mechwright_cam.setup.views import inside_of
 
 SPECK = 1e-3
 """A feature is open to a side if all but this of its area is, mm²: the chords of two outlines differ."""
-
-
-MIRRORED: dict[str, Literal["left", "right", "on"]] = {"left": "right", "right": "left", "on": "on"}
-"""Side of a path to its side when the plate has been turned over."""
 
 
 SIGNS = {"x": (1.0, -1.0), "y": (-1.0, 1.0)}
@@ -58,23 +54,10 @@ def _open_from_above(features: Sequence[Feature]) -> list[Feature]:
 
 
 def _over(feature: Feature, thickness: float, about: Literal["x", "y"]) -> Feature:
-    """A feature as it is seen when the plate has been turned over, in the part's coordinates."""
-    top = thickness - feature.top - feature.depth
-    top = 0.0 if abs(top) < LEVEL else top
-    match feature:
-        case Bore():
-            return replace(feature, centre=turned_point(feature.centre, about), top=top)
-        case Profile():
-            sites = tuple((turned_point(site, about), width) for site, width in feature.tab_sites)
-            return replace(feature, loop=turned_over(feature.loop, about), top=top, tab_sites=sites)
-        case OpenProfile():
-            path = tuple(turned_segment(segment, about) for segment in feature.path)
-            return replace(feature, path=path, side=MIRRORED[feature.side], top=top)
-        case Pocket():
-            if feature.floor_radius > 0:
-                raise DesignError(
-                    f"cam.second_side: {feature.name} has a floor_radius and is milled from the underside; "
-                    "fillets are for floors that are cut from above"
-                )
-            islands = tuple(turned_over(loop, about) for loop in feature.islands)
-            return replace(feature, boundary=turned_over(feature.boundary, about), islands=islands, top=top)
+    """A feature as it is seen when the plate has been turned over; a fillet cannot be cut from there."""
+    if isinstance(feature, Pocket) and feature.floor_radius > 0:
+        raise DesignError(
+            f"cam.second_side: {feature.name} has a floor_radius and is milled from the underside; "
+            "fillets are for floors that are cut from above"
+        )
+    return from_below(feature, thickness, about)

@@ -23,6 +23,8 @@ class Inspection(Plugin):
     """What its findings are about."""
     needs: ClassVar[frozenset[str]] = frozenset()
     """What has to be made for it and takes long: :data:`~mechwright.pipeline.work.SOLIDS`, ``PROGRAMS``."""
+    process: ClassVar[str] = ""
+    """Name of the process that it is about, such as ``"mill"``: commands of other processes do not ask it."""
     order: ClassVar[int] = 100
     """Inspections of lower order are told first."""
     doing: ClassVar[str] = ""

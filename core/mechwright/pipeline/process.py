@@ -41,6 +41,18 @@ class Process(Plugin):
         """What the plate has less of than as drawn, each in a few words; by default nothing."""
         return ()
 
+    def correction(self, off: float, walls: str) -> str:  # noqa: ARG002 - for those that have registers
+        """What to set for the next piece where stock stays on each wall, as a clause.
+
+        Parameters
+        ----------
+        off
+            That stock, mm; below 0 the walls are cut too deep.
+        walls
+            Of which ones: ``"all"``, ``"inside"`` or ``"outside"``.
+        """
+        return f"move the walls by {-off:+.4f} mm"
+
     def seconds(self, part: Part, build: Build) -> float | None:  # noqa: ARG002 - for those that know
         """How long it takes for one piece by estimate; None, the default, where nobody knows."""
         return None

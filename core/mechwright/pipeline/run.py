@@ -45,7 +45,7 @@ class Run:
 
     def __init__(self, build: Build, work: Work, progress: "Progress | None" = None) -> None:
         self.build, self.work = build, work
-        asked = (one for one in build.host.all(Inspection) if not one.stage.is_after(work.stage))
+        asked = (one for one in build.host.all(Inspection) if _is_asked(one, work))
         self.inspections = sorted(asked, key=lambda one: one.order)
         self.part_errors: list[Finding] = []
         """That the parts cannot be made."""
@@ -193,6 +193,11 @@ def refused(error: MechwrightError, path: Path, stage: Stage) -> Finding:
         key, rest = "", words
     message, _, remedy = rest.rpartition("; ")
     return Finding.error(REFUSED, key, message or remedy, remedy=remedy if message else "", stage=stage)
+
+
+def _is_asked(one: Inspection, work: Work) -> bool:
+    """Whether an inspection is about what a run comes to."""
+    return not one.stage.is_after(work.stage) and (not work.process or one.process in {"", work.process})
 
 
 def _kept(build: Build) -> dict[str, Mapping[str, Content]]:  # noqa: ARG001 - one for the wishes of each build

@@ -18,10 +18,13 @@ class Work:
         The last stage of it: errors of later ones are told and stop nothing.
     makes
         What it makes for the inspections that need it, such as :data:`SOLIDS`.
+    process
+        The process whose files it writes: what others find of the parts is not asked. Empty asks all.
     """
 
     stage: Stage
     makes: frozenset[str] = frozenset()
+    process: str = ""
 
 
 WORK = {

@@ -205,7 +205,7 @@ def proposed_tried(run: Run, inspection: Inspection, findings: Iterable[Finding]
         return findings
 
     def judge(design: Design) -> Sequence[Finding]:
-        with Build(design, run.build.host) as build:
+        with Build(design, run.build.host, run.build.wanted) as build:
             found = build.findings
             return found if errors(found, inspection.stage) else [*found, *run.ask(inspection, build)]
 

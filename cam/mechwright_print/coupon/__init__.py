@@ -1,0 +1,1 @@
+"""The calibration coupon: its pieces, its sheet, and the fit of what is measured on it."""

@@ -1,0 +1,1 @@
+"""What is printed of a design: parts, holes, places on the bed, filament."""

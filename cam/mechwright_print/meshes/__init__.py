@@ -1,0 +1,1 @@
+"""Triangles of compensated parts as they stand on the bed."""

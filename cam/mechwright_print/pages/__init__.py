@@ -1,0 +1,1 @@
+"""Files of a print: plates, meshes, and the sheet."""

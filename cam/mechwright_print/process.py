@@ -1,0 +1,55 @@
+"""Printing as a process: ``process = "print"`` in a design file."""
+
+from collections.abc import Sequence
+
+from mechwright.contracts.finding import errors
+from mechwright.contracts.part import Part
+from mechwright.pipeline import Build
+from mechwright.pipeline.process import Process
+from mechwright_print.settings import PRINT
+
+
+class Printing(Process):
+    """Filament laid down in layers."""
+
+    name = PRINT
+    title = "the printer"
+
+    def refuses(self, part: Part, build: Build) -> str | None:
+        """The first error of its rules; fits are told as findings, each with its line."""
+        from mechwright_print.job.print_job import PrintJob
+        from mechwright_print.rules.judged import bed_rule, wall_rule
+
+        job = build.made(PrintJob)
+        one = job.of(part)
+        found = errors([*bed_rule(job, one), *wall_rule(job, one)])
+        return found[0].message if found else None
+
+    def loses(self, part: Part, build: Build) -> Sequence[str]:
+        """Fits, threads and engraved lines."""
+        from mechwright_print.job.print_job import PrintJob
+
+        job = build.made(PrintJob)
+        one = job.of(part)
+        lost = []
+        fits = [hole.name for hole in one.made.holes if hole.fit is not None and hole.kind != "ream"]
+        if fits:
+            lost.append(f"the fits of {', '.join(fits)}: ±{job.printer.scatter('hole'):.2f} mm")
+        if threads := [hole.name for hole in one.made.holes if hole.kind in {"insert", "screw", "tap"}]:
+            lost.append(f"the threads of {', '.join(threads)}")
+        return lost
+
+    def correction(self, off: float, walls: str) -> str:
+        """Deviations in the file of the printer."""
+        said = []
+        if walls != "outside":
+            said.append(f"add {-2 * off:+.4f} to deviation.hole")
+        if walls != "inside":
+            said.append(f"add {2 * off:+.4f} to deviation.wall")
+        return " and ".join(said)
+
+    def seconds(self, part: Part, build: Build) -> float | None:
+        """Filament by its volume and the printer's flow."""
+        from mechwright_print.job.print_job import PrintJob
+
+        return build.made(PrintJob).seconds(part)

@@ -1,0 +1,1 @@
+"""What a printer cannot make of a design."""

@@ -1,0 +1,203 @@
+"""Measured parts: limits, the next piece, pairs, and how the mechanism runs with them."""
+
+import csv
+import io
+import itertools
+import json
+
+import numpy as np
+import pytest
+
+from mechwright.cli.hosting import open_host
+from mechwright.contracts.inspected import inspected
+from mechwright.designs.design import load
+from mechwright.errors import DesignError
+from mechwright.pipeline import Build
+from mechwright.pipeline.measured.corrections import corrections, mean_offset
+from mechwright.pipeline.measured.pairing import least_greatest, pairings
+from mechwright.pipeline.measured.readings import Reading, empty_table, read_readings
+from mechwright.pipeline.measured.running import as_measured
+
+BATCHES = 100
+NOISE = 0.002
+"""Of what measures the batches, mm: pins and a micrometer."""
+
+
+@pytest.fixture(scope="module")
+def build(request) -> Build:
+    return Build(load(request.config.rootpath / "examples/geneva-straight.toml", open_host()), open_host())
+
+
+def cut(part, off: float, rng, copy: str = "1") -> list[Reading]:
+    """A copy of a plate whose walls keep ``off`` mm of stock, as measured."""
+    return [
+        Reading(part, copy, one, one.target + one.walls * off + NOISE * float(rng.standard_normal()))
+        for one in inspected(part)
+        if one.walls
+    ]
+
+
+def test_a_worn_cutter_is_corrected_so_that_the_next_piece_is_within_limits(build):
+    rng = np.random.default_rng(1)
+    part = build.parts["locking-disc"]
+    worn_out, next_out = 0, 0
+    for _ in range(BATCHES):
+        wear = float(rng.uniform(0.004, 0.02))
+        batch = [one for copy in "12345" for one in cut(part, wear, rng, copy)]
+        (found,) = corrections(build, batch)
+        assert found.process == "mill"
+        assert found.words.startswith(f"set the wear of D {-found.off:+.4f} mm")
+        assert abs(found.off - wear) < 4 * found.error + 1e-4
+        worn_out += any(not one.holds for one in batch)
+        true_next = [one.target + one.walls * (wear - found.off) for one in inspected(part) if one.walls]
+        next_out += any(
+            not one.holds(value)
+            for one, value in zip([d for d in inspected(part) if d.walls], true_next, strict=True)
+        )
+    assert worn_out > 0.8 * BATCHES
+    assert next_out == 0
+
+
+def test_walls_inside_and_outside_are_told_apart_where_they_differ(build):
+    rng = np.random.default_rng(2)
+    part = build.parts["locking-disc"]
+    readings = [
+        Reading(
+            part,
+            str(copy),
+            one,
+            one.target + (-0.06 if one.walls < 0 else 0.002) + 1e-3 * rng.standard_normal(),
+        )
+        for copy in range(4)
+        for one in inspected(part)
+        if one.walls
+    ]
+    found = {one.walls: one for one in corrections(build, readings)}
+    assert set(found) == {"inside", "outside"}
+    assert found["inside"].off == pytest.approx(0.03, abs=1e-3)
+    assert found["outside"].off == pytest.approx(0.001, abs=1e-3)
+
+
+def test_the_offset_is_that_of_least_squares(build):
+    part = build.parts["crank"]
+    rng = np.random.default_rng(3)
+    readings = cut(part, 0.011, rng)
+    walls = np.array([one.dimension.walls for one in readings], float)
+    more = np.array([one.off for one in readings])
+    (slope,), _, _, _ = np.linalg.lstsq(walls[:, None], more, rcond=None)
+    off, error = mean_offset(readings)
+    assert off == pytest.approx(slope, abs=1e-6)
+    rest = more - slope * walls
+    assert error == pytest.approx(np.sqrt(rest @ rest / (len(walls) - 1) / (walls @ walls)))
+
+
+def test_pairs_have_the_least_greatest_play_of_all():
+    rng = np.random.default_rng(4)
+    for _ in range(40):
+        size = int(rng.integers(2, 6))
+        plays = rng.normal(0.015, 0.02, (size, size))
+        costs = np.where(plays < 0, 1e3 - plays, plays)
+        best = min(
+            max(costs[i, j] for i, j in enumerate(order)) for order in itertools.permutations(range(size))
+        )
+        assert max(costs[i, j] for i, j in least_greatest(plays)) == pytest.approx(best)
+
+
+def test_pairing_lowers_the_greatest_play_as_order_statistics_say(build):
+    rng = np.random.default_rng(5)
+    crank, roller = build.parts["crank"], build.parts["roller"]
+    names = [(one.name, one) for one in inspected(roller) if one.name == "step-1"]
+    count, sigma, gained, said = 12, 0.006, [], []
+    del names
+    hole = next(one for one in inspected(crank) if one.name == "pin-1")
+    for _ in range(BATCHES):
+        holes = hole.target + sigma * rng.standard_normal(count)
+        shafts = hole.nominal - 0.03 + sigma * rng.standard_normal(count)
+        plays = -np.subtract.outer(shafts, holes)
+        pairs = least_greatest(plays)
+        gained.append(np.diag(plays).max() - max(plays[i, j] for i, j in pairs))
+        said.append(np.diag(plays).max() - (np.sort(holes) - np.sort(shafts)).max())
+    # copies in the order of their sizes are the best there is
+    assert gained == pytest.approx(said, abs=1e-9)
+    assert np.mean(gained) > sigma  # from 1.63 sqrt(2) sigma of the greatest of twelve to a third of it
+
+
+def test_the_play_of_measured_pairs_is_found_and_the_mechanism_runs_with_it(build):
+    host = open_host()
+    four = Build(load(build.path.parent / "four-bar-double-rocker.toml", host), host)
+    rng = np.random.default_rng(6)
+    half = []
+    for more in (0.0, 0.2):
+        readings = []
+        for part in four.parts:
+            for one in inspected(part):
+                if one.walls:
+                    grown = more if one.walls < 0 and part.kind == "turned" else 0.0
+                    readings.append(Reading(part, "1", one, one.target + grown))
+        found = corrections(four, readings)
+        pairs = pairings(four, readings)
+        moving = [pair for pair in pairs if pair.moves]
+        assert moving
+        for pair in moving:
+            assert pair.plays[0, 0] == pytest.approx(pair.as_chosen)
+        sizes = {f"{one.part.name}.{one.dimension.name}": one.dimension.nominal for one in readings}
+        half.append([one.half for one in as_measured(four, pairs, found, [sizes[p.hole] for p in pairs])])
+    assert half[0]
+    assert all(after > before for before, after in zip(*half, strict=True))
+    del rng
+
+
+def filled(build: Build, change) -> str:
+    rows = list(csv.DictReader(io.StringIO(empty_table(build.parts))))
+    for row in rows:
+        row["measured"] = change(row)
+    text = io.StringIO()
+    writer = csv.DictWriter(text, rows[0].keys(), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def middle(row) -> str:
+    if not row["least"]:
+        return row["nominal"]
+    return f"{(float(row['least']) + float(row['greatest'])) / 2:.4f}"
+
+
+def test_a_table_is_written_filled_in_and_judged(build, tmp_path, command_line):
+    table = tmp_path / "values.csv"
+    code, out, _ = command_line("measure", build.path, "-o", table)
+    assert code == 0
+    assert "fill in the column measured" in out
+    assert table.read_text() == empty_table(build.parts)
+    table.write_text(filled(build, middle))
+    code, out, _ = command_line("measure", build.path, table)
+    assert code == 0
+    assert "all within limits" in out
+    table.write_text(
+        filled(build, lambda row: "10.05" if row["part"] == "wheel" and row["feature"] == "bore" else "")
+    )
+    code, out, _ = command_line("measure", build.path, table)
+    assert code == 1
+    assert "wheel 1 bore: 10.05 mm, 10.000 to 10.015: out by 0.035 mm" in out
+    code, out, _ = command_line("measure", build.path, table, "--json")
+    assert json.loads(out)["values"][0]["holds"] is False
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        ("wheel,1,bore,0.394", "10.008 mm: it was measured in inches"),
+        ("wheel,1,bore,7.0", "far off 10 mm"),
+        ("whel,1,bore,10", "no part is named 'whel'"),
+        ("wheel,1,bor,10", "has no dimension 'bor'"),
+        ("wheel,1,bore,ten", "'ten' is no number"),
+        ("wheel,1,bore,10\nwheel,1,bore,10.01", "is there twice"),
+        ("wheel,1,bore,", "has no value"),
+    ],
+)
+def test_wrong_values_are_named(build, tmp_path, row, said):
+    table = tmp_path / "values.csv"
+    table.write_text(f"part,copy,feature,measured\n{row}\n")
+    with pytest.raises(DesignError, match=said.replace("(", "\\(")):
+        read_readings(table, build.parts)
