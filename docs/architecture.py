@@ -38,6 +38,8 @@ STYLE = (
 
 
 CORE, CAD, CAM, CHECKER = FACADE, "mechwright_cad", "mechwright_cam", "mechwright_check"
+PROCESSES = ("mechwright_print",)
+"""Packages of processes besides milling: one block has them all."""
 
 Spot = tuple[str, int]
 """A room, or an arrow as ``tail>tip``, and the number of the layer in which it stands or passes."""
@@ -183,19 +185,20 @@ def draw() -> str:
     """The picture."""
     graph = imports()
     between = packages(graph)
-    families = [one for one in between if one not in {CORE, CAD, CAM, CHECKER}]  # the last stands by itself
+    # The checker stands by itself.
+    families = [one for one in between if one not in {CORE, CAD, CAM, CHECKER, *PROCESSES}]
+    blocks = dict.fromkeys(families, "plugins") | dict.fromkeys(PROCESSES, "processes")
     cam, cam_end = block(CAM, "cam/mechwright_cam: from parts to proven programs", graph, MARGIN)
     top = cam_end + STEP
-    column = (WIDTH - 3 * MARGIN) / 2
+    between_columns = 2 * MARGIN
+    column = (WIDTH - 2 * MARGIN - 2 * between_columns) / 3
+    left = [MARGIN + number * (column + between_columns) for number in range(3)]
     small = {
-        CAD: (MARGIN, rooms(graph, CAD), "cam/mechwright_cad"),
-        "plugins": (
-            2 * MARGIN + column,
-            [one.removeprefix("mechwright_") for one in families],
-            "plugins/mechwright_*",
-        ),
+        CAD: (left[0], list(rooms(graph, CAD)), "cam/…_cad"),
+        "processes": (left[1], [one.removeprefix("mechwright_") for one in PROCESSES], "other processes"),
+        "plugins": (left[2], [one.removeprefix("mechwright_") for one in families], "plugins/…_*"),
     }
-    texts = {name: wrap(", ".join(words), 26) for name, (_, words, _) in small.items()}
+    texts = {name: wrap(", ".join(words), 18) for name, (_, words, _) in small.items()}
     height = HEAD + 12 + 15 * max(len(lines) for lines in texts.values())
     drawn = []
     for name, (x, _, title) in small.items():
@@ -206,15 +209,18 @@ def draw() -> str:
         ]
     core_top = top + height + STEP
     core, end = block(CORE, "core/mechwright: what every plugin may use", graph, core_top)
-    cad_x, plugins_x = MARGIN + column / 2, 2 * MARGIN + column * 1.5
+    cad_x, processes_x, plugins_x = (x + column / 2 for x in left)
+    gap_x, middle = left[1] - between_columns / 2, top + height / 2
     arrows = {
         (CAM, CAD): wide(cad_x, cam_end, cad_x, top),
-        (CAM, CORE): wide(WIDTH / 2, cam_end, WIDTH / 2, core_top),
+        (CAM, CORE): wide(gap_x, cam_end, gap_x, core_top),
         (CAD, CORE): wide(cad_x, top + height, cad_x, core_top),
+        ("processes", CAD): wide(left[1], middle, left[0] + column, middle),
+        ("processes", CORE): wide(processes_x, top + height, processes_x, core_top),
         ("plugins", CORE): wide(plugins_x, top + height, plugins_x, core_top),
     }
     there = {
-        ("plugins" if one in families else one, "plugins" if other in families else other)
+        (blocks.get(one, one), blocks.get(other, other))
         for one, wanted in between.items()
         for other in wanted
     }
