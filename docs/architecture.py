@@ -191,8 +191,8 @@ def draw() -> str:
     cam, cam_end = block(CAM, "cam/mechwright_cam: from parts to proven programs", graph, MARGIN)
     top = cam_end + STEP
     between_columns = 2 * MARGIN
-    column = (WIDTH - 2 * MARGIN - 2 * between_columns) / 3
-    left = [MARGIN + number * (column + between_columns) for number in range(3)]
+    widths = (121.0, 107.0, WIDTH - 2 * MARGIN - 2 * between_columns - 228.0)
+    left = [MARGIN + sum(widths[:number]) + number * between_columns for number in range(3)]
     small = {
         CAD: (left[0], list(rooms(graph, CAD)), "cam/…_cad"),
         "processes": (left[1], [one.removeprefix("mechwright_") for one in PROCESSES], "other processes"),
@@ -201,7 +201,7 @@ def draw() -> str:
     texts = {name: wrap(", ".join(words), 18) for name, (_, words, _) in small.items()}
     height = HEAD + 12 + 15 * max(len(lines) for lines in texts.values())
     drawn = []
-    for name, (x, _, title) in small.items():
+    for (name, (x, _, title)), column in zip(small.items(), widths, strict=True):
         drawn.append(frame(x, top, column, height, title))
         drawn += [
             f'<text x="{x + 8:g}" y="{top + 32 + 15 * n:g}">{line}</text>'
@@ -209,13 +209,13 @@ def draw() -> str:
         ]
     core_top = top + height + STEP
     core, end = block(CORE, "core/mechwright: what every plugin may use", graph, core_top)
-    cad_x, processes_x, plugins_x = (x + column / 2 for x in left)
+    cad_x, processes_x, plugins_x = (x + width / 2 for x, width in zip(left, widths, strict=True))
     gap_x, middle = left[1] - between_columns / 2, top + height / 2
     arrows = {
         (CAM, CAD): wide(cad_x, cam_end, cad_x, top),
         (CAM, CORE): wide(gap_x, cam_end, gap_x, core_top),
         (CAD, CORE): wide(cad_x, top + height, cad_x, core_top),
-        ("processes", CAD): wide(left[1], middle, left[0] + column, middle),
+        ("processes", CAD): wide(left[1], middle, left[0] + widths[0], middle),
         ("processes", CORE): wide(processes_x, top + height, processes_x, core_top),
         ("plugins", CORE): wide(plugins_x, top + height, plugins_x, core_top),
     }

@@ -113,14 +113,14 @@ def _further(repair: Repair, design: Design, judges: Sequence[Judge], stage: Sta
     return Repair(found, change, [], repair.bench)
 
 
-def judge_of(host: Host, work: Work, *, every: bool = False, wanted: Wanted = Wanted()) -> Judge:
+def judge_of(host: Host, work: Work, *, every: bool = False, wanted: Wanted | None = None) -> Judge:
     """What a run finds of a design; without ``every`` up to the first inspection that finds an error.
 
     ``wanted`` is asked of it besides.
     """
 
     def judge(design: Design) -> Sequence[Finding]:
-        with Build(design, host, wanted) as build:
+        with Build(design, host, wanted or Wanted()) as build:
             run = Run(build, work)
             run.look(every=every)
             if not work.makes or run.is_stopped():
