@@ -39,8 +39,8 @@ STYLE = (
 
 CORE, CAD, CAM, CHECKER = FACADE, "mechwright_cad", "mechwright_cam", "mechwright_check"
 PLANE = "mechwright_plane"
-PROCESSES = {"mechwright_cut": "mechwright_cut"}
-"""Packages of processes besides milling, and their titles."""
+PROCESSES = ("mechwright_cut", "mechwright_print")
+"""Packages of processes besides milling: one block has them all."""
 
 Spot = tuple[str, int]
 """A room, or an arrow as ``tail>tip``, and the number of the layer in which it stands or passes."""
@@ -191,12 +191,11 @@ def draw() -> str:
     cam, cam_end = block(CAM, "cam/mechwright_cam: from parts to proven programs", graph, MARGIN)
     column = (WIDTH - 4 * MARGIN) / 3
     left = [MARGIN + n * (column + MARGIN) for n in range(3)]
-    drawn, top, beside = [], cam_end + STEP, {}
-    for package, title in PROCESSES.items():
-        if package in between:
-            height = small(drawn, (left[2], top, column), title, [list(rooms(graph, package))])
-            beside[package] = (left[2], top + height)
-            top += height + STEP
+    drawn, top = [], cam_end + STEP
+    names = [one.removeprefix("mechwright_") for one in PROCESSES]
+    height = small(drawn, (left[2], top, column), "other processes", [names])
+    bottom = top + height
+    top = bottom + STEP
     words = {
         CAD: ("mechwright_cad", list(rooms(graph, CAD))),
         PLANE: ("mechwright_plane", list(rooms(graph, PLANE))),
@@ -210,13 +209,13 @@ def draw() -> str:
     middle = dict(zip(words, (x + column / 2 for x in left), strict=True))
     arrows = {(name, CORE): wide(x, top + height, x, core_top) for name, x in middle.items()}
     arrows |= {(CAM, name): wide(middle[name], cam_end, middle[name], top) for name in (CAD, PLANE)}
-    for package, (x, bottom) in beside.items():
-        arrows |= {
-            (package, name): wide(x + at, bottom, middle[name] + at, top)
-            for name, at in ((CAD, 10.0), (PLANE, 30.0))
-        }
+    arrows |= {
+        ("processes", name): wide(left[2] + at, bottom, middle[name] + at, top)
+        for name, at in ((CAD, 10.0), (PLANE, 30.0))
+    }
+    blocks = dict.fromkeys(families, "plugins") | dict.fromkeys(PROCESSES, "processes")
     there = {
-        ("plugins" if one in families else one, "plugins" if other in families else other)
+        (blocks.get(one, one), blocks.get(other, other))
         for one, wanted in reduced(between).items()
         for other in wanted
     }

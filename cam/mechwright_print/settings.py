@@ -52,9 +52,7 @@ class PrintSettings(Parameters):
     infill: Annotated[Ratio, Field(ge=0, le=1)] = Field(
         0.3, description="Share of the inside that is filled.", json_schema_extra=FIRST
     )
-    allowance: Millimetres = Field(
-        0.4, ge=0.05, le=2, description="What a reamer takes of the diameter of a hole."
-    )
+    allowance: Millimetres = Field(0.4, ge=0.05, le=2, description="Stock for a reamer, on the diameter.")
     greatest_play: Millimetres | None = Field(
         None,
         gt=0,

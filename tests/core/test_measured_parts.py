@@ -48,10 +48,10 @@ def test_a_worn_cutter_is_corrected_so_that_the_next_piece_is_within_limits(buil
         assert found.process == "mill"
         assert found.words.startswith(f"set the wear of D {-found.off:+.4f} mm")
         assert abs(found.off - wear) < 4 * found.error + 1e-4
-        worn_out += any(not one.holds for one in batch)
+        worn_out += any(not one.is_within for one in batch)
         true_next = [one.target + one.walls * (wear - found.off) for one in inspected(part) if one.walls]
         next_out += any(
-            not one.holds(value)
+            not one.is_within(value)
             for one, value in zip([d for d in inspected(part) if d.walls], true_next, strict=True)
         )
     assert worn_out > 0.8 * BATCHES
@@ -181,7 +181,7 @@ def test_a_table_is_written_filled_in_and_judged(build, tmp_path, command_line):
     assert code == 1
     assert "wheel 1 bore: 10.05 mm, 10.000 to 10.015: out by 0.035 mm" in out
     code, out, _ = command_line("measure", build.path, table, "--json")
-    assert json.loads(out)["values"][0]["holds"] is False
+    assert json.loads(out)["values"][0]["within"] is False
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,7 @@ class SyntheticPrinter:
         }
 
     def trials(self, turning: float) -> dict[float, str]:
-        """What the loose pin does that turns from a clearance on each side on, mm."""
+        """What the gauge pin does that turns from a clearance on each side on, mm."""
         words = {}
         for gap in GAPS:
             side = gap + (self.hole - self.pin) / 2

@@ -8,8 +8,8 @@ from mechwright.errors import DesignError
 from mechwright_print.coupon.calibrated import calibrated
 from mechwright_print.coupon.doubts import doubts
 from mechwright_print.coupon.features import ROWS
+from mechwright_print.coupon.filled import Measured, empty_table, read_coupon
 from mechwright_print.coupon.fitted import UNKNOWNS, fit, system
-from mechwright_print.coupon.sizes import Measured, empty_table, read_sizes
 from mechwright_print.printer.printer_file import printer_text, read_printer
 from mechwright_print.printer.settings import Printer
 
@@ -130,7 +130,7 @@ def test_a_table_is_read_with_points_and_with_commas(tmp_path):
     for comma in (False, True):
         path = tmp_path / f"coupon-{comma}.csv"
         path.write_text(filled(sizes, comma))
-        assert read_sizes(path).sizes == pytest.approx(sizes)
+        assert read_coupon(path).sizes == pytest.approx(sizes)
 
 
 def test_missing_unknown_double_and_wrong_rows_are_told_with_their_places(tmp_path):
@@ -140,7 +140,7 @@ def test_missing_unknown_double_and_wrong_rows_are_told_with_their_places(tmp_pa
     path = tmp_path / "coupon.csv"
     path.write_text("\n".join(kept))
     with pytest.raises(DesignError) as caught:
-        read_sizes(path)
+        read_coupon(path)
     told = str(caught.value)
     assert "the row hole-5 is missing" in told
     assert "no feature is named 'hole-99'" in told

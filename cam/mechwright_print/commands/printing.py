@@ -42,15 +42,15 @@ def write_coupon(folder: Path, base: Path | None) -> None:
 
 def fit_printer(measured: Path, output: Path, base: Path | None, *, force: bool, as_json: bool) -> None:
     """Write the file of the printer that a coupon describes; raises DesignError for a doubtful one."""
-    from mechwright_print.coupon.calibrated import calibrated, told
-    from mechwright_print.coupon.sizes import read_sizes
+    from mechwright_print.coupon.calibrated import calibrated, report
+    from mechwright_print.coupon.filled import read_coupon
 
-    sizes = read_sizes(measured)
+    sizes = read_coupon(measured)
     try:
         printer, found = calibrated(sizes, Printer() if base is None else read_printer(base))
     except DesignError as error:
         raise DesignError("\n".join(f"{measured}: {line}" for line in str(error).splitlines())) from error
-    lines = list(told(printer, found, sizes))
+    lines = list(report(printer, found, sizes))
     write_new(output, printer_text(printer, f"Measured on a coupon: {lines[0]}"), replace=force)
     if as_json:
         data = {"file": str(output), "values": found.values, "errors": found.errors, "spread": found.spread}

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping
 
 from mechwright.errors import DesignError
 from mechwright_print.coupon.doubts import doubts
-from mechwright_print.coupon.features import LOOSE_PIN, WORDS
+from mechwright_print.coupon.features import GAUGE_PIN, WORDS
+from mechwright_print.coupon.filled import Measured
 from mechwright_print.coupon.fitted import PrinterFit, fit
-from mechwright_print.coupon.sizes import Measured
 from mechwright_print.printer.settings import SIGMAS, Clearances, Deviation, Printer, Uncertainty
 
 WIDE = 0.1
@@ -51,12 +51,12 @@ def calibrated(measured: Measured, base: Printer) -> tuple[Printer, PrinterFit]:
 
 
 def side_clearance(gap: float, of: PrinterFit) -> float:
-    """What stood on each side of the loose pin in a trial, as printed, mm."""
+    """What stood on each side of the gauge pin in a trial, as printed, mm."""
     return gap + (of.values["hole"] - of.values["pin"]) / 2
 
 
 def _clearances(trials: Mapping[float, str], of: PrinterFit, base: Clearances) -> Clearances:
-    """By what the loose pin did; what no trial tells stays as it was."""
+    """By what the gauge pin did; what no trial tells stays as it was."""
     if not trials:
         return base
     least: dict[str, float] = {}
@@ -74,7 +74,7 @@ def _clearances(trials: Mapping[float, str], of: PrinterFit, base: Clearances) -
     return Clearances(**found)
 
 
-def told(printer: Printer, of: PrinterFit, measured: Measured) -> Iterator[str]:
+def report(printer: Printer, of: PrinterFit, measured: Measured) -> Iterator[str]:
     """What to say of a fit, a line each."""
     yield f"{len(of.residuals)} sizes, spread {of.spread:.3f} mm (standard deviation about the fit)"
     for name in ("hole", "slot", "pin", "wall", "foot"):
@@ -95,6 +95,6 @@ def told(printer: Printer, of: PrinterFit, measured: Measured) -> Iterator[str]:
     if of.spread > WIDE:
         yield f"note: a spread above {WIDE:g} mm is wide: look at belts, temperature and filament first"
     if not measured.trials:
-        yield f"note: no trial of the loose pin ⌀{LOOSE_PIN:g} is written: the clearances stay as they were"
+        yield f"note: no trial of the gauge pin ⌀{GAUGE_PIN:g} is written: the clearances stay as they were"
     elif "turns" not in measured.trials.values():
-        yield "note: the loose pin turned in no trial: clearance.turning stays as it was"
+        yield "note: the gauge pin turned in no trial: clearance.turning stays as it was"

@@ -11,8 +11,8 @@ from mechwright_cad.exporters.mesh import stl_of
 from mechwright_cad.exporters.threemf import BuildItem, MeshObject, package
 from mechwright_print.compensation.plates import Compensated
 from mechwright_print.coupon.features import GAPS, ROWS, UP, WORDS, trial_name
+from mechwright_print.coupon.filled import TRIAL_HOW, empty_table
 from mechwright_print.coupon.pieces import pieces
-from mechwright_print.coupon.sizes import TRIAL_HOW, empty_table
 from mechwright_print.meshes.laid_out import laid_out
 from mechwright_print.meshes.printed_mesh import printed_mesh
 from mechwright_print.printer.settings import Printer

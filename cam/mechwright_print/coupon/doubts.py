@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations, pairwise
 
 from mechwright_print.coupon.features import GAPS, ROWS, WORDS, Row, trial_name
+from mechwright_print.coupon.filled import Measured
 from mechwright_print.coupon.fitted import fit
-from mechwright_print.coupon.sizes import Measured
 
 INCH = 25.4
 """mm."""

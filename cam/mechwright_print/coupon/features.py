@@ -7,7 +7,7 @@ row
 axis
     Along which a size lies on the bed: x or y; round holes are measured by pins, all round.
 trial
-    A hole into which the loose pin is put: it tells what a clearance does.
+    A hole into which the gauge pin is put: it tells what a clearance does.
 """
 
 from dataclasses import dataclass
@@ -26,9 +26,9 @@ WALLS = (1.2, 2.0, 4.0)
 SHORT, LONG = 20.0, 100.0
 """Lengths along each axis, mm."""
 GAPS = (0.05, 0.10, 0.15, 0.20, 0.25, 0.30, 0.40)
-"""Clearances on each side of the loose pin in its trials, mm."""
-LOOSE_PIN = 6.0
-"""Diameter of the loose pin, mm."""
+"""Clearances on each side of the gauge pin in its trials, mm."""
+GAUGE_PIN = 6.0
+"""Diameter of the gauge pin, mm."""
 THICK = 4.0
 """Thickness of the plates, mm."""
 TALL = 10.0
@@ -85,7 +85,7 @@ ROWS = tuple(_rows())
 """All rows, in the order of the table."""
 
 WORDS = ("stuck", "pushed", "slides", "turns")
-"""What the loose pin does in a trial, from tight to free."""
+"""What the gauge pin does in a trial, from tight to free."""
 
 
 def trial_name(gap: float) -> str:

@@ -1,4 +1,4 @@
-"""The pieces of the coupon as plates: an L with holes and slots, pins and walls, trials, a loose pin.
+"""The pieces of the coupon as plates: an L with holes and slots, pins and walls, trials, a gauge pin.
 
 Along X of the bed lie the round holes of the L, along Y its slots.
 """
@@ -9,8 +9,8 @@ from mechwright.geometry.segments import Point
 from mechwright_print.coupon.features import (
     BASE,
     GAPS,
+    GAUGE_PIN,
     LONG,
-    LOOSE_PIN,
     ROUND,
     SHORT,
     SLOTS,
@@ -83,20 +83,20 @@ def trials() -> Part:
     length, width = PITCH * len(GAPS) + 2.0, 18.0
     rim = Loop.polygon([(4.0, 0), (length, 0), (length, width), (0, width), (0, 4.0)])
     features: list[Feature] = [
-        Bore(trial_name(gap), (PITCH * (number + 0.5) + 1.0, width / 2), LOOSE_PIN + 2 * gap, 0.0, THICK)
+        Bore(trial_name(gap), (PITCH * (number + 0.5) + 1.0, width / 2), GAUGE_PIN + 2 * gap, 0.0, THICK)
         for number, gap in enumerate(GAPS)
     ]
     return _plate("coupon-trials", rim, features, THICK)
 
 
-def loose_pin() -> Part:
+def gauge_pin() -> Part:
     """The pin for the trials, on a knob."""
     knob = Loop((circle((0.0, 0.0), 8.0),))
     around = _rectangle((0.0, 0.0), 30.0, 30.0)
-    island = Loop((circle((0.0, 0.0), LOOSE_PIN / 2),))
-    return _plate("coupon-loose-pin", knob, [Pocket("around", around, (island,), 0.0, 16.0)], 16.0 + THICK)
+    island = Loop((circle((0.0, 0.0), GAUGE_PIN / 2),))
+    return _plate("coupon-gauge-pin", knob, [Pocket("around", around, (island,), 0.0, 16.0)], 16.0 + THICK)
 
 
 def pieces() -> list[Part]:
     """All pieces."""
-    return [plate(), pins(), trials(), loose_pin()]
+    return [plate(), pins(), trials(), gauge_pin()]

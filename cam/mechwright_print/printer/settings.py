@@ -70,7 +70,7 @@ class Printer(Parameters):
     """A printer as it is set up; the keys of ``printer.toml``."""
 
     name: str = Field("printer", max_length=60, description="On sheets.")
-    filament: Literal["pla", "petg", "abs", "asa", "pa"] = Field("pla", description="What is printed.")
+    filament: Literal["pla", "petg", "abs", "asa", "pa"] = Field("pla", description="Filament.")
     density: Annotated[Ratio, Field(gt=0, le=10)] | None = Field(
         None, description="Density of the filament in g/cm³. Default: by filament."
     )
@@ -89,7 +89,7 @@ class Printer(Parameters):
         0.1, description="Standard deviation of a size from one print, or one place, to the next."
     )
     measured: bool = Field(False, description="Whether the figures are those of a measured coupon.")
-    bed: Bed = Field(default_factory=Bed, description="What a print may fill.")
+    bed: Bed = Field(default_factory=Bed, description="Room for a print.")
     deviation: Deviation = Field(default_factory=Deviation, description="Printed size less drawn size.")
     uncertainty: Uncertainty = Field(
         default_factory=Uncertainty, description="Standard errors of the deviations."

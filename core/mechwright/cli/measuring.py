@@ -41,7 +41,7 @@ def measure(design: Path, values: Path | None, output: Path | None, *, force: bo
         pairs = pairings(build, readings)
         sizes = {f"{one.part.name}.{one.dimension.name}": one.dimension.nominal for one in readings}
         running = as_measured(build, pairs, found, [sizes[pair.hole] for pair in pairs])
-    failed = [one for one in readings if not one.holds]
+    failed = [one for one in readings if not one.is_within]
     if as_json:
         typer.echo(json.dumps(_data(readings, found, pairs, running), indent=2))
     else:
@@ -61,7 +61,7 @@ def _lines(
 ) -> Iterator[str]:
     for one in readings:
         limits = f"{_mm(one.dimension.least)} to {_mm(one.dimension.greatest)}"
-        held = "holds" if one.holds else f"out by {_out(one):.3f} mm"
+        held = "holds" if one.is_within else f"out by {_out(one):.3f} mm"
         yield f"{one.part.name} {one.copy} {one.dimension.name}: {one.value:g} mm, {limits}: {held}"
     for each in found:
         said = f"{each.off:+.4f} mm, standard error {each.error:.4f} mm, {each.count} sizes"
@@ -101,7 +101,7 @@ def _data(
     running: Sequence[ComparedOutput],
 ) -> dict[str, Any]:
     return {
-        "ok": all(one.holds for one in readings),
+        "ok": all(one.is_within for one in readings),
         "values": [
             {
                 "part": one.part.name,
@@ -110,7 +110,7 @@ def _data(
                 "measured": one.value,
                 "least": one.dimension.least,
                 "greatest": one.dimension.greatest,
-                "holds": one.holds,
+                "within": one.is_within,
             }
             for one in readings
         ],

@@ -65,7 +65,7 @@ class Dimension:
             return self.nominal
         return (self.least + self.greatest) / 2
 
-    def holds(self, value: float) -> bool:
+    def is_within(self, value: float) -> bool:
         """Whether a measured value, mm, is within the limits."""
         low = self.least is None or value >= self.least - LEVEL
         return low and (self.greatest is None or value <= self.greatest + LEVEL)

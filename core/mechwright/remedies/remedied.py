@@ -118,7 +118,8 @@ class _Whole:
 
     def __init__(self, run: Run) -> None:
         design, last = run.build.design, run.work.stage
-        judge = judge_of(run.build.host, Work(last), every=True)
+        work = Work(last, process=run.work.process)
+        judge = judge_of(run.build.host, work, every=True, wanted=run.build.wanted)
         self._benches = {
             Severity.ERROR: Bench(design, judge, last, CONFIRMED),
             Severity.WARNING: Bench(design, judge, last, REMARKED),

@@ -8,7 +8,7 @@ from mechwright.contracts.refused import RefusedError
 from mechwright.contracts.synthesis import Progress, unheard
 from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError
-from mechwright.pipeline import Build, Run, Work, work_to
+from mechwright.pipeline import Build, Run, Wanted, Work, work_to
 from mechwright.pipeline.run import refused
 from mechwright.plugins.host import Host
 from mechwright.remedies.bench import Bench, Judge, Limits, of_family
@@ -113,11 +113,14 @@ def _further(repair: Repair, design: Design, judges: Sequence[Judge], stage: Sta
     return Repair(found, change, [], repair.bench)
 
 
-def judge_of(host: Host, work: Work, *, every: bool = False) -> Judge:
-    """What a run finds of a design; without ``every`` up to the first inspection that finds an error."""
+def judge_of(host: Host, work: Work, *, every: bool = False, wanted: Wanted | None = None) -> Judge:
+    """What a run finds of a design; without ``every`` up to the first inspection that finds an error.
+
+    ``wanted`` is asked of it besides.
+    """
 
     def judge(design: Design) -> Sequence[Finding]:
-        with Build(design, host) as build:
+        with Build(design, host, wanted or Wanted()) as build:
             run = Run(build, work)
             run.look(every=every)
             if not work.makes or run.is_stopped():

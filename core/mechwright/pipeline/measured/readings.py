@@ -35,9 +35,9 @@ class Reading:
         return self.value - self.dimension.target
 
     @property
-    def holds(self) -> bool:
+    def is_within(self) -> bool:
         """Whether it is within its limits."""
-        return self.dimension.holds(self.value)
+        return self.dimension.is_within(self.value)
 
 
 def empty_table(parts: Sequence[Part]) -> str:

@@ -13,13 +13,13 @@ from mechwright_print.coupon.features import GAPS, ROWS, WORDS, trial_name
 
 COLUMNS = ("feature", "nominal", "measured", "how")
 """Of the table; the third is filled in."""
-TRIAL_HOW = f"the loose pin: {', '.join(WORDS)}"
+TRIAL_HOW = f"the gauge pin: {', '.join(WORDS)}"
 """What is written into the line of a trial."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """What was written: sizes by their rows, mm, and what the loose pin did by its gap, mm."""
+    """What was written: sizes by their rows, mm, and what the gauge pin did by its gap, mm."""
 
     sizes: Mapping[str, float]
     trials: Mapping[float, str] = field(default_factory=dict)
@@ -32,7 +32,7 @@ def empty_table() -> str:
     return csv_text([COLUMNS, *rows])
 
 
-def read_sizes(path: Path) -> Measured:
+def read_coupon(path: Path) -> Measured:
     """The sizes of a filled table, separated by commas or semicolons; the latter may have decimal commas.
 
     Raises OutputError where it cannot be read, and DesignError with a line for each row that is missing,
