@@ -28,6 +28,7 @@ from mechwright_cam.setup.sides import sides
 from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.holding import Nesting, Stock
 from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.packing import WEB, Layout, bottom_left, on_plate
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import JobSettings
 from mechwright_cam.shop.tool import MILLS, widest_mill
@@ -36,17 +37,11 @@ from mechwright_cam.shop.workshop_file import Shop
 NEST_NAME = "cam.nest.name"
 """The key of the design file that names a nest, and with it its files."""
 
-WEB = 3.0
-"""Frame between two channels, mm: as wide as beside the outermost channel, stiff enough for tabs."""
-
 WIDTHS = 40
 """So many widths of an open plate are tried."""
 
 MOST = 200
 """No more copies on one plate: their number comes from a file, and each costs time."""
-
-SNAP = 1e-6
-"""Boxes overlap if by more than this, mm."""
 
 
 class NestNameError(DesignError):
@@ -71,15 +66,6 @@ class _Item:
     def size(self) -> tuple[float, float]:
         x0, y0, x1, y1 = self.box
         return x1 - x0, y1 - y0
-
-
-@dataclass(frozen=True)
-class _Layout:
-    """Lower left corners (x, y) of the boxes and whether each is turned; the size of all together."""
-
-    spots: tuple[tuple[float, float, bool], ...]
-    width: float
-    height: float
 
 
 def arranged(
@@ -227,7 +213,7 @@ def nest_of(
         beside = gap + WEB  # a channel and a frame on either side
         inside = stock.length - beside, stock.width - beside
         within = min(inside[0], room[0] - gap), min(inside[1], room[1] - gap)
-        layout = _on_plate(sizes, *within, gap, turn) or _on_plate(sizes, *inside, gap, turn)
+        layout = on_plate(sizes, *within, gap, turn) or on_plate(sizes, *inside, gap, turn)
         if layout is None:
             least = _open(sizes, gap, turn, room)
             raise DesignError(
@@ -262,7 +248,7 @@ def _box(part: Part) -> tuple[float, float, float, float]:
     return x0, y0, x1, y1
 
 
-def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool, room: tuple[float, float]) -> _Layout:
+def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool, room: tuple[float, float]) -> Layout:
     """The layout of least area, with the gap around it; the shorter circumference of two alike.
 
     One within the machine's travel, ``room``, goes before any other; mills stay within the gap around it.
@@ -270,7 +256,7 @@ def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool, room: tu
     least = max(min(size) if turn else size[0] for size in sizes)
     most = sum(max(size) if turn else size[0] for size in sizes) + gap * (len(sizes) - 1)
     widths = np.linspace(least, max(least, most), WIDTHS).tolist()
-    found = (_bottom_left(sizes, width, math.inf, gap, turn) for width in widths)
+    found = (bottom_left(sizes, width, math.inf, gap, turn) for width in widths)
     return min(
         filter(None, found),
         key=lambda f: (
@@ -279,50 +265,3 @@ def _open(sizes: Sequence[tuple[float, float]], gap: float, turn: bool, room: tu
             f.width + f.height,
         ),
     )
-
-
-def _on_plate(
-    sizes: Sequence[tuple[float, float]], width: float, height: float, gap: float, turn: bool
-) -> _Layout | None:
-    """A layout on a plate of given size: filled from below, or else from the left."""
-    layout = _bottom_left(sizes, width, height, gap, turn)
-    if layout is not None:
-        return layout
-    across = _bottom_left([(h, w) for w, h in sizes], height, width, gap, turn)
-    if across is None:
-        return None
-    return _Layout(tuple((y, x, turned) for x, y, turned in across.spots), across.height, across.width)
-
-
-def _bottom_left(
-    sizes: Sequence[tuple[float, float]], width: float, height: float, gap: float, turn: bool
-) -> _Layout | None:
-    """Each box in turn where its upper edge is lowest, then leftmost; None if one finds no place."""
-    boxes = np.empty((0, 4))
-    spots: list[tuple[float, float, bool]] = []
-    for w, h in sizes:
-        best: tuple[float, float, float, bool] | None = None
-        for turned in (False, True) if turn else (False,):
-            a, b = (h, w) if turned else (w, h)
-            xs = np.unique(np.append(boxes[:, 2] + gap, 0.0))
-            ys = np.unique(np.append(boxes[:, 3] + gap, 0.0))
-            xs, ys = xs[xs + a <= width + SNAP], ys[ys + b <= height + SNAP]
-            beside = (xs[:, None] < boxes[:, 2] + gap - SNAP) & (xs[:, None] + a > boxes[:, 0] - gap + SNAP)
-            above = (ys[:, None] < boxes[:, 3] + gap - SNAP) & (ys[:, None] + b > boxes[:, 1] - gap + SNAP)
-            # How many boxes a place would meet, as a product of matrices; both ways ascend. Kernels compute
-            # with what lies beside the matrices as well, and may warn of that.
-            with np.errstate(invalid="ignore"):
-                met = above.astype(np.float32) @ beside.T.astype(np.float32)
-            free = np.argwhere(met == 0)
-            if free.size == 0:
-                continue
-            row, column = free[0]
-            at = (float(ys[row]) + b, float(xs[column]), float(ys[row]), turned)
-            best = at if best is None else min(best, at)
-        if best is None:
-            return None
-        _, left, low, turned = best
-        a, b = (h, w) if turned else (w, h)
-        boxes = np.vstack((boxes, (left, low, left + a, low + b)))
-        spots.append((left, low, turned))
-    return _Layout(tuple(spots), float(boxes[:, 2].max()), float(boxes[:, 3].max()))
