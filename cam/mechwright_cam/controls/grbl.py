@@ -104,6 +104,10 @@ class Grbl(Measuring, GcodeControl):
 
     def check_zero(self, settings: CamSettings) -> Sequence[Finding]:
         """Without switches its machine zero is where it was switched on: no mark sets it."""
+        if not settings.machine.homed and settings.more_offsets:
+            lack = "without machine zero there is no known way up between two work zeros"
+            remedy = "leave more_offsets out, and run the program anew at each zero"
+            return [Finding.error("cam.homing", "cam.more_offsets", lack, remedy=remedy)]
         if settings.machine.homing != "marks":
             return super().check_zero(settings)
         lack = f"{self.title} sets machine zero by switches ($H) alone, and not at marks"
