@@ -61,6 +61,7 @@ class Grbl(Measuring, GcodeControl):
     )
     offsets = OffsetTables(lengths=False, length_word="G43.1", d=None)
     forbidden = "%$;" + _REALTIME
+    comment_width = 58  # senders and pendants for it show, or take, lines of 60
     highest_tool = 255
     by_hand = "files"
     takes_back = "type G92.1 before zero is set"
