@@ -24,6 +24,13 @@ MOST_TURNS = 4
 """Turns of a tool, on average, for which names of files are compared before anything is planned."""
 _REALTIME = "?!~"
 """Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
+SENDERS = (
+    "UGS, bCNC, gSender and OpenBuilds CONTROL take the files as they are, one after the other. None has "
+    "a tool change (M6), so their windows for it stay shut.",
+    "cncjs: upload a file, wait for its box, press run. Candle: one file at a time; its comments are short.",
+    "A pendant with a card takes .nc files with short names: one file for each tool, nothing else beside it.",
+)
+"""What each sender asks for, for the sheet."""
 
 
 class Grbl(Measuring, GcodeControl):
@@ -137,10 +144,12 @@ class Grbl(Measuring, GcodeControl):
                 f"Type $30={machine.spindle_max:g} and $31=0: S is in rev/min, and at another $30 the "
                 "spindle turns at another speed."
             )
-        said.append(
-            "Senders such as UGS, bCNC, gSender, cncjs and Candle take the files as they are; none of the "
-            "files has a tool change (M6)."
-        )
+        said += SENDERS
+        if not machine.homed:
+            said.append(
+                "Do not press the home button of cncjs or Candle: it sends $H, which is error 5 without "
+                "switches. Set zero by G10 L20 P1, or by the zero buttons."
+            )
         if settings.coolant == "mist":
             said.append("Mist (M7) takes a Grbl that was built with ENABLE_M7; others stop with error 20.")
         return said

@@ -54,13 +54,17 @@ def started(
         change["parameters.material"] = hand.material
     if hand.thickness is not None:
         change |= _thicknesses(design(), hand.thickness, host)
+    rooms: dict[str, Callable[[Sequence[tuple[float, float]]], bool]] = {}
     if fit is not None:
-        size = f"{fit[0]:g} x {fit[1]:g} mm"
-        change |= _size(design(), f"--fit: {size}", host, lambda boxes: all(_one(box, fit) for box in boxes))
-    elif hand.fits is not None:
-        change |= _size(design(), "--shop: the sheet in hand", host, hand.fits)
-        if len(_boxes(_plates(design()))) > 1:
-            change |= hand.change
+        rooms[f"--fit: {fit[0]:g} x {fit[1]:g} mm"] = lambda boxes: all(_one(box, fit) for box in boxes)
+    if hand.fits is not None:
+        rooms["--shop: the sheet in hand"] = hand.fits
+    if rooms:
+        change |= _size(
+            design(), " and ".join(rooms), host, lambda boxes: all(f(boxes) for f in rooms.values())
+        )
+    if hand.fits is not None and len(_boxes(_plates(design()))) > 1:
+        change |= hand.change
     return change
 
 
