@@ -2,6 +2,7 @@
 
 ``python benchmarks/mutations.py [EACH [SEED [KIND ...]]]``
 ``python benchmarks/mutations.py blocks [SHARE [SEED]]``
+``python benchmarks/mutations.py no-homing [COUNT [SEED]]``
 
 Takes proven programs of every operation and control, and of random parts, makes EACH faults of every kind
 (``tests/cam/mutants.py``), and has each proven. A fault that passes is judged by what the machine does with
@@ -10,6 +11,8 @@ the text: whether anything differs at all, and if so, on a height map that is no
 pass and change something, with the reason why they may, and a table. With ``blocks`` the faults are those of
 ``tests/cam/block_mutants.py``: for every kind of block of every control all of them, in programs drawn among
 those that have such a block; with a SHARE of more than 1 in so many programs each, below 1 so much of them.
+With ``no-homing`` COUNT faults, 300 by default, are those of every kind and of
+``tests/cam/programs_without_homing.py``, in programs of a Grbl machine without switches.
 A fault that passes for no reason (``UNEXPLAINED``) makes the command fail.
 """
 
@@ -31,6 +34,7 @@ import golden_cases
 import golden_compensation
 import golden_operations
 import height_map
+import programs_without_homing
 import random_outcomes
 import random_parts
 from block_mutants import PLACES, faults, inserted, kinds, wrong
@@ -38,6 +42,7 @@ from by_control import BY_NAME, EVERY, prove, read
 from line_faults import STATES
 from mutant_traces import differences, trace
 from mutants import FAULTS, Mutant, mutant
+from programs_without_homing import MORE_PARTS, PARTS
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.errors import ProgramError
@@ -368,7 +373,15 @@ def _reasons(found: Sequence[Verdict]) -> list[str]:
     return [verdict.reason for verdict in found if not verdict.check]
 
 
+def cases_without_homing(count: int, seed: int) -> list[tuple[Source, Mutant]]:
+    """Faults of every kind in programs that go by the work zero alone."""
+    made = programs_without_homing.faulty(count, seed, (*PARTS, *MORE_PARTS))
+    return [(Source(f"{one.name} grbl", "grbl", one.job, one.text), fault) for one, fault in made]
+
+
 def main(*arguments: str) -> int:
+    if arguments[:1] == ("no-homing",):
+        return run(cases_without_homing(int((*arguments, "300")[1]), int((*arguments, "300", "0")[2])))
     if arguments[:1] == ("blocks",):
         share, seed = float((*arguments, "1")[1]), int((*arguments, "1", "0")[2])
         return run(block_cases(share, seed))

@@ -27,10 +27,10 @@ def pictures() -> dict[str, str]:
         pages = {
             page: (Path(folder) / "out" / page).read_text(encoding="utf-8") for page, _ in PICTURES.values()
         }
-    return {name: _cut(pages[page], label) for name, (page, label) in PICTURES.items()}
+    return {name: cut_out(pages[page], label) for name, (page, label) in PICTURES.items()}
 
 
-def _cut(page: str, label: str) -> str:
+def cut_out(page: str, label: str) -> str:
     """The picture of that name, with the rules of its page for what it holds, as a file of its own."""
     (drawn,) = (
         one for one in re.findall(r"<svg.*?</svg>", page, re.S) if f'"{label}' in one.partition(">")[0]

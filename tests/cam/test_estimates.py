@@ -71,6 +71,27 @@ def test_published_settings_are_within_a_factor_of_two(row) -> None:
         assert ratio == pytest.approx(apart, abs=0.02)
 
 
+SLOWEST = 16000
+"""Of the router of an MPCNC, rev/min: for settings that name no speed."""
+LIKE = {**MATERIALS, "softer than metal": "plywood", "aluminium, maker of the cutter": "aluminium"}
+
+
+def removal(row) -> float:
+    """What the estimate removes in that of a published setting, at the same speed and width."""
+    kind, flutes = ("B" if row["machine"].endswith("(B)") else "A"), row.get("z", 2)
+    machine = Machine(rigidity=kind, spindle_min=1000, spindle_max=30000)
+    data, speed = estimate(mill(row["d"], flutes), LIKE[row["material"]], machine), row.get("rpm", SLOWEST)
+    feed = row.get("feed") or row["chip_load"] * flutes * speed
+    return data.chip_load * flutes * speed * data.step_down * row["d"] / (feed * row["depth"])
+
+
+@pytest.mark.parametrize("row", DATA["published"], ids=lambda row: f"{row['machine']}-{row['material']}")
+def test_the_page_has_each_published_setting_with_what_the_estimate_makes_of_it(row) -> None:
+    page = Path(__file__).parents[2].joinpath("docs", "small-machines.md").read_text()
+    start = f"| {row['machine']} | {row['material']} | {row['d']:g} | {row['depth']:g} | "
+    assert f"{start}{removal(row):.2f} |" in page
+
+
 @pytest.mark.parametrize("name", DATA["machines"])
 def test_every_desktop_machine_is_known(name) -> None:
     said, (figures, preset) = DATA["machines"][name], known_machines()[name]

@@ -3,11 +3,16 @@
 import re
 
 import pytest
-from by_control import BY_NAME, prove, settled
+from by_control import BY_NAME, prove, read, settled
+from by_night import NIGHT, examples
+from mutant_traces import differences, trace
 from planning_parts import bore, plate
 from planning_parts import job as planned
+from programs_without_homing import FAULTS, MORE_PARTS, PARTS, faulty
 from shop import plate_job, plate_program
+from test_mutations import SURE
 
+from mechwright.errors import ProgramError
 from mechwright_cam.machining import machine as machined
 from mechwright_cam.shop.settings import CamSettings
 
@@ -42,37 +47,6 @@ def test_it_is_proven(job, files) -> None:
     assert prove(files, job, GRBL).ok
 
 
-def _without(text: str, line: str) -> str:
-    lines = text.splitlines(keepends=True)
-    lines.remove(line + "\n")
-    return "".join(lines)
-
-
-FAULTS = {
-    "machine Z before all": lambda text: text.replace("G0 Z5", "G53 G0 Z-2\nG0 Z5", 1),
-    "machine Z at the end": lambda text: text.replace("X0 Y0", "G53 G0 Z-2\nX0 Y0"),
-    "reference point": lambda text: text.replace("G0 Z5", "G91 G28 Z0\nG90\nG0 Z5", 1),
-    "second reference point": lambda text: text.replace("X0 Y0", "G91 G30 Z0\nG90\nX0 Y0"),
-    "zero shifted": lambda text: text.replace("G0 Z5", "G92 Z0\nG0 Z5", 1),
-    "no way up first": lambda text: _without(text, "G0 Z5"),
-    "sideways first": lambda text: text.replace("G0 Z5", "G0 X0 Y0 Z5", 1),
-    "down first": lambda text: text.replace("G0 Z5", "G0 Z-1", 1),
-    "low first": lambda text: text.replace("G0 Z5", "G0 Z0.2", 1),
-    "fed first": lambda text: text.replace("G0 Z5", "G1 Z5 F100", 1),
-    "by a distance first": lambda text: text.replace("G0 Z5", "G91 G0 Z5\nG90", 1),
-    "left low": lambda text: text.replace("G0 Z5\nX0 Y0", "G0 Z0.1\nX0 Y0"),
-    "no work offset": lambda text: text.replace("G54\n", "").replace("G54 ", ""),
-    "another work offset": lambda text: text.replace("G54", "G55"),
-    "Z beyond the travel": lambda text: text.replace("G0 Z5\nX0 Y0", "G0 Z60\nX0 Y0"),
-    "no end": lambda text: text.replace("M30\n", ""),
-    "no tool": lambda text: "".join(
-        line for line in text.splitlines(keepends=True) if not line.startswith("T")
-    ),
-    "another tool": lambda text: re.sub(r"^T\d+$", "T77", text, flags=re.M),
-    "modes left out": lambda text: text.replace("G17 G21 G40 G49 G80 G90 G91.1 G94\n", ""),
-}
-
-
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_found_in_every_file(job, files, fault) -> None:
     seen = 0
@@ -85,7 +59,26 @@ def test_a_fault_is_found_in_every_file(job, files, fault) -> None:
             assert not prove({**files, name: wrong}, job, GRBL).ok, name
         except ValueError:  # not readable is found, too
             continue
-    assert seen
+    assert seen or fault in {"machine Z in the middle", "a length"}
+
+
+def test_planted_faults_are_refused_or_the_machine_does_the_same() -> None:
+    """Those kinds of fault that change what is cut wherever they stand; benchmarks/mutations.py takes all."""
+    refused, other = 0, []
+    parts = (*PARTS, *MORE_PARTS) if NIGHT else PARTS[:3]
+    for one, made in faulty(examples(40, 300), 52, parts, (*FAULTS, *SURE)):
+        try:
+            if not prove(made.text, one.job, GRBL).ok:
+                refused += 1
+                continue
+        except ProgramError:
+            refused += 1
+            continue
+        before, after = (trace(read(text, one.job, GRBL)) for text in (one.text, made.text))
+        if changed := differences(before, after):
+            other.append((one.name, made.kind, made.change, changed))
+    assert not other
+    assert refused > (240 if NIGHT else 30)
 
 
 @pytest.mark.parametrize("name", [name for name in BY_NAME if name != "grbl"])

@@ -1,7 +1,8 @@
 (program bracket-1-t1, Grbl 1.1)
 (part bracket, aluminium, 6 mm thick)
 (D5 holes [H7])
-(file 1 of 3, load T1 spot-6, touch it off on the stock as Z0)
+(file 1 of 3, load T1 spot-6, touch it off on the stock as)
+(Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T1 D 6 mm: spot-6, spot drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

@@ -24,6 +24,13 @@ MOST_TURNS = 4
 """Turns of a tool, on average, for which names of files are compared before anything is planned."""
 _REALTIME = "?!~"
 """Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
+SENDERS = (
+    "UGS, bCNC, gSender and OpenBuilds CONTROL take the files as they are, one after the other. None has "
+    "a tool change (M6), so their windows for it stay shut.",
+    "cncjs: upload a file, wait for its box, press run. Candle: one file at a time; its comments are short.",
+    "A pendant with a card takes .nc files with short names: one file for each tool, nothing else beside it.",
+)
+"""What each sender asks for, for the sheet."""
 
 
 class Grbl(Measuring, GcodeControl):
@@ -61,6 +68,7 @@ class Grbl(Measuring, GcodeControl):
     )
     offsets = OffsetTables(lengths=False, length_word="G43.1", d=None)
     forbidden = "%$;" + _REALTIME
+    comment_width = 58  # senders and pendants for it show, or take, lines of 60
     highest_tool = 255
     by_hand = "files"
     takes_back = "type G92.1 before zero is set"
@@ -104,6 +112,10 @@ class Grbl(Measuring, GcodeControl):
 
     def check_zero(self, settings: CamSettings) -> Sequence[Finding]:
         """Without switches its machine zero is where it was switched on: no mark sets it."""
+        if not settings.machine.homed and settings.more_offsets:
+            lack = "without machine zero there is no known way up between two work zeros"
+            remedy = "leave more_offsets out, and run the program anew at each zero"
+            return [Finding.error("cam.homing", "cam.more_offsets", lack, remedy=remedy)]
         if settings.machine.homing != "marks":
             return super().check_zero(settings)
         lack = f"{self.title} sets machine zero by switches ($H) alone, and not at marks"
@@ -132,10 +144,12 @@ class Grbl(Measuring, GcodeControl):
                 f"Type $30={machine.spindle_max:g} and $31=0: S is in rev/min, and at another $30 the "
                 "spindle turns at another speed."
             )
-        said.append(
-            "Senders such as UGS, bCNC, gSender, cncjs and Candle take the files as they are; none of the "
-            "files has a tool change (M6)."
-        )
+        said += SENDERS
+        if not machine.homed:
+            said.append(
+                "Do not press the home button of cncjs or Candle: it sends $H, which is error 5 without "
+                "switches. Set zero by G10 L20 P1, or by the zero buttons."
+            )
         if settings.coolant == "mist":
             said.append("Mist (M7) takes a Grbl that was built with ENABLE_M7; others stop with error 20.")
         return said

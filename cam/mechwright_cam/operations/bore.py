@@ -170,10 +170,21 @@ def cutters_of(job: Job, bore: Bore) -> tuple[Tool | None, Tool | None]:
         )
     message = (
         f"cam.tools: nothing makes {bore.name} of {bore.diameter:g} mm in part {job.part.name}: no end mill "
-        f"up to {TIGHTEST * bore.diameter:.2f} mm and no drill of {bore.diameter:g} mm; list one"
+        f"up to {TIGHTEST * bore.diameter:.2f} mm{_short(job, bore, depth)} and no drill of "
+        f"{bore.diameter:g} mm; list one"
     )
     least = min((tool.diameter for tool in able), default=None)
     raise ToolError(message) if least is None else MisfitError(message, bore.diameter, least / TIGHTEST)
+
+
+def _short(job: Job, bore: Bore, depth: float) -> str:
+    """In words, the mill that would enter a bore if its flutes were long enough; empty without one."""
+    knows = [tool for tool in job.mills if job.part.material in tool.cutting]
+    entering = [tool for tool in knows if tool.diameter <= TIGHTEST * bore.diameter]
+    if not entering:
+        return ""
+    longest = max(entering, key=lambda tool: tool.flute_length)
+    return f" with flutes of {depth:g} mm ({longest.name} has {longest.flute_length:g})"
 
 
 def boring_mill(mills: list[Tool], diameter: float) -> Tool | None:

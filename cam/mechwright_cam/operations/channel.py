@@ -32,6 +32,10 @@ FILLS = 0.9
 the walls are parallel, and as far apart as the mill is wide: a corner of 25 degrees or more has no such room
 for mills from 1 mm and the usual allowance on."""
 
+STRIP = 2.0
+"""A strip of stock narrower than this, mm, does not stand between two passes: the proof takes a bridge that
+is not much narrower for none."""
+
 NEARLY = 1e-6
 """Gaps are compared to this, mm: parts that were placed at a distance have it but for rounding."""
 
@@ -115,8 +119,18 @@ def channel_of(
         return shapely.box(*job.stock).difference(thin), None
     # Whatever the channel encloses would come loose, so it goes as well.
     near = roughly_swollen(part, width - mill.radius)
-    channel = simplified(filled(grow(near, mill.radius, ROUGH)), ROUGH)
+    channel = _with_strips(simplified(filled(grow(near, mill.radius, ROUGH)), ROUGH))
     return channel.difference(thin), channel
+
+
+def _with_strips(channel: shapely.Geometry) -> shapely.Geometry:
+    """The channel with the strips of stock that it would leave standing in slots: they bend and break off."""
+    closed = grow(grow(channel, STRIP / 2, ROUGH), -STRIP / 2, ROUGH)
+    strips = [piece for piece in polygons(closed.difference(channel)) if piece.area >= STRIP**2]
+    if not strips:
+        return channel
+    wide = [piece.buffer(ROUGH) for piece in strips]  # they meet the channel, rounding or not
+    return simplified(filled(shapely.union_all([channel, *wide])), ROUGH)
 
 
 def outside_mills(mills: Sequence[Tool], part: shapely.Geometry, allowance: float, bias: float) -> list[Tool]:

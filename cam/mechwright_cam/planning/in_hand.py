@@ -22,7 +22,7 @@ def from_hand(job: Job, shop: Shop, design: Design) -> tuple[Stock | None, list[
     if not shop.workshop.stock:
         return None, []
     mine = [row for row in shop.workshop.stock if row.material == material]
-    thick = [row for row in mine if any(abs(one - thickness) <= AS_THICK for one in row.thickness)]
+    thick = [row for row in mine if any(abs(one - thickness) <= AS_THICK for one in row.in_hand)]
     if not thick:
         return None, [_no_thickness(job, shop, design)]
     sizes = blanks(shop, material, thickness, job.settings)
@@ -59,7 +59,7 @@ def blanks(shop: Shop, material: str, thickness: float, settings: CamSettings) -
     thick = [
         row
         for row in shop.workshop.stock
-        if row.material == material and any(abs(one - thickness) <= AS_THICK for one in row.thickness)
+        if row.material == material and any(abs(one - thickness) <= AS_THICK for one in row.in_hand)
     ]
     ready = [(row.length, row.width) for row in thick if row.length is not None and row.width is not None]
     if settings.stock.length is not None or len(ready) < len(thick):

@@ -3,10 +3,12 @@
 from collections.abc import Iterator, Sequence
 
 from mechwright.contracts.finding import Finding, Severity
-from mechwright_cam.planning.nesting import MOST, WEB, copies, nest_of
+from mechwright.errors import DesignError
+from mechwright_cam.planning.nesting import MOST, copies, nest_of
 from mechwright_cam.setup.clamping import rim_margins, widest_channel
 from mechwright_cam.setup.job import Job
 from mechwright_cam.shop.holding import Stock
+from mechwright_cam.shop.packing import WEB
 from mechwright_cam.shop.table import JobSettings
 from mechwright_plane.nest import Nest
 
@@ -40,7 +42,10 @@ def nest_notes(settings: JobSettings, jobs: Sequence[Job]) -> Iterator[Finding]:
 def _fits(group: Sequence[Job]) -> bool:
     """Whether the nest of some jobs, with its rim, lies within the travel of the machine."""
     settings, channel = group[0].settings, max(map(widest_channel, group))
-    nest = nest_of("nest", [job.part for job in group], settings, 2 * channel + WEB)
+    try:
+        nest = nest_of("nest", [job.part for job in group], settings, 2 * channel + WEB)
+    except DesignError:  # a blank in hand is too small for all of them
+        return False
     assert nest.outline is not None  # noqa: S101 - a nest is a plate
     x0, y0, x1, y1 = nest.outline.bounds
     mx, my = rim_margins(x1 - x0, y1 - y0, channel)

@@ -25,6 +25,7 @@ from mechwright_cam.setup.sides import sides
 from mechwright_cam.setup.views import inside_of
 from mechwright_cam.shop.holding import Nesting, Stock
 from mechwright_cam.shop.library import Library
+from mechwright_cam.shop.packing import WEB
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.table import JobSettings
 from mechwright_cam.shop.tool import MILLS, widest_mill
@@ -34,8 +35,6 @@ from mechwright_plane.nest import Nest, Placed, make_nest
 NEST_NAME = "cam.nest.name"
 """The key of the design file that names a nest, and with it its files."""
 
-WEB = 3.0
-"""Frame between two channels, mm: as wide as beside the outermost channel, stiff enough for tabs."""
 
 MOST = 200
 """No more copies on one plate: their number comes from a file, and each costs time."""

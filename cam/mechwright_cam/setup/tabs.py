@@ -213,8 +213,9 @@ def _frame_at(job: "Job", ring: shapely.LinearRing, place: tuple[float, float, P
     x, y, (tx, ty) = place
     way = shapely.LineString([(x, y), (x + far * ty, y - far * tx)])
     halfway = filled(shapely.buffer(shapely.Polygon(ring), part.gap / 2))
-    inside = shapely.get_coordinates(shapely.intersection(way, halfway))
-    return float(max(math.hypot(px - x, py - y) for px, py in inside.tolist()))
+    inside = shapely.get_parts(shapely.intersection(way, halfway))  # of a recess, both of its walls
+    nearest = min(inside, key=lambda piece: float(shapely.distance(piece, shapely.Point(x, y))))
+    return float(max(math.hypot(px - x, py - y) for px, py in shapely.get_coordinates(nearest).tolist()))
 
 
 def _across(ring: shapely.LinearRing, at: float, step: float) -> tuple[float, float, Point]:

@@ -1,6 +1,7 @@
 """The key ``shop`` in the head of a design file: the shop that it is made in."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +11,12 @@ from mechwright.designs.design import Design
 from mechwright.designs.files import beside
 from mechwright.designs.text import toml
 from mechwright.errors import DesignError
-from mechwright_cam.shop.tool import MILLS
+from mechwright_cam.shop.machine import Machine
+from mechwright_cam.shop.packing import WEB, fits_blank
+from mechwright_cam.shop.settings import CamSettings
+from mechwright_cam.shop.tool import widest_mill
+from mechwright_cam.shop.workshop import Plates
 from mechwright_cam.shop.workshop_file import VARIABLE, Shop, named_by, read_shop, schema
-
-EDGE = 3.0
-"""Stock that stays beside the channel around a part, mm."""
 
 
 class ShopTable(Table[Shop | None]):
@@ -49,12 +51,10 @@ class ShopTable(Table[Shop | None]):
         if value is None:
             return None
         rows = value.workshop.stock
-        if len(rows) != 1 or len(rows[0].thickness) != 1:
+        if len(rows) != 1 or len(rows[0].in_hand) != 1:
             return InHand()
         row = rows[0]
-        blank = None if row.length is None or row.width is None else (row.length, row.width)
-        mill = max((tool.diameter for tool in value.library if tool.kind in MILLS), default=6.0)
-        return InHand(row.material, row.thickness[0], blank, mill + EDGE, {"cam.nest.turn": True})
+        return InHand(row.material, row.in_hand[0], _fits(value, row), {"cam.nest.turn": True})
 
     def schema(self) -> dict[str, Any]:
         """A text."""
@@ -81,3 +81,14 @@ def shop_of(design: Design) -> Shop | None:
     """The shop that a design is made in; None without one."""
     shop: Shop | None = design.tables.get(ShopTable.name)
     return shop
+
+
+def _fits(shop: Shop, row: Plates) -> Callable[[Sequence[tuple[float, float]]], bool] | None:
+    """Whether plates go on a ready blank together, with the channels of the widest mill around them."""
+    if row.length is None or row.width is None:
+        return None
+    machine = shop.workshop.machine or Machine()
+    left = shop.lends.get("cam", {}).get("stock_to_leave", CamSettings().stock_to_leave)
+    gap = 2 * (widest_mill(shop.library) + left) + WEB
+    room = (machine.travel_x, machine.travel_y)
+    return partial(fits_blank, blank=(row.length, row.width), gap=gap, room=room, turn=True)

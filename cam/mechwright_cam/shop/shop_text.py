@@ -44,7 +44,8 @@ def bench_text(of: Bench, tools: Sequence[Tool], sheets: Sequence[Sheet]) -> str
             "",
             "[[stock]]",
             f"material = {toml(sheet.material)}",
-            f"thickness = [{sheet.thickness:g}]  # measure it: plywood is up to 0.8 thinner",
+            f"thickness = [{sheet.thickness:g}]",
+            f"# measured = {sheet.thickness:g}  # by callipers: plywood 6 is 5.2 to 6.3; plates follow it",
             f"length = {sheet.length:g}",
             f"width = {sheet.width:g}",
         ]

@@ -1,11 +1,11 @@
 """The workshop of a file of its own, ``shop.toml``: crib, machine, what is in hand, what is preferred."""
 
 import re
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
-from mechwright.contracts.materials import MaterialName
+from mechwright.contracts.materials import OWN_NAME, MaterialName
 from mechwright.contracts.own_materials import OwnMaterial
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.inches import Units
@@ -15,6 +15,9 @@ from mechwright_cam.shop.tool import Tool
 
 LAYOUT: Literal[1] = 1
 """Version of the layout of shop files."""
+
+MEASURED_OFF = 0.25
+"""Share by which a sheet may be thinner or thicker than it is called: plywood 6 is 5.2 to 6.3."""
 
 
 def _screw(text: str) -> str:
@@ -36,10 +39,30 @@ class Plates(Parameters):
     thickness: tuple[Annotated[Millimetres, Field(gt=0, le=500)], ...] = Field(
         min_length=1, max_length=100, description="Thicknesses."
     )
+    measured: Millimetres | None = Field(
+        None, gt=0, le=500, description="Of these plates, by callipers: designs and programs go by it."
+    )
     length: Millimetres | None = Field(
         None, gt=0, le=10000, description="Of ready blanks. Default: pieces are sawn off as parts ask."
     )
     width: Millimetres | None = Field(None, gt=0, le=10000, description="Of ready blanks.")
+
+    @model_validator(mode="after")
+    def _measured(self) -> Self:
+        if self.measured is None:
+            return self
+        if len(self.thickness) != 1:
+            raise ValueError("measured is of plates of one thickness; give each thickness its own [[stock]]")
+        if abs(self.measured - self.thickness[0]) > MEASURED_OFF * self.thickness[0]:
+            raise ValueError(
+                f"measured is {self.measured:g}, and thickness {self.thickness[0]:g}: correct the wrong one"
+            )
+        return self
+
+    @property
+    def in_hand(self) -> tuple[float, ...]:
+        """Thicknesses that programs go by, mm: the measured one, if there is one."""
+        return self.thickness if self.measured is None else (self.measured,)
 
 
 class Prefer(Parameters):
@@ -67,7 +90,7 @@ class Workshop(Parameters):
     )
     holder: dict[str, Holder] = Field(default_factory=dict, description="Holders by name.")
     tool: tuple[Tool, ...] = Field((), description="The tools.")
-    material: dict[Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_.-]{0,39}$")], OwnMaterial] = Field(
+    material: dict[Annotated[str, Field(pattern=OWN_NAME)], OwnMaterial] = Field(
         default_factory=dict, max_length=100, description="Materials besides the built-in ones, by name."
     )
     stock: tuple[Plates, ...] = Field((), description="Plates in hand; none: whatever a part asks for.")

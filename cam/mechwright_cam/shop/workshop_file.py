@@ -72,7 +72,7 @@ class Shop:
 
     def thicknesses(self, material: str) -> list[float]:
         """Thicknesses of the plates of a material that are in hand, mm, from the thinnest on."""
-        found = {one for row in self.workshop.stock if row.material == material for one in row.thickness}
+        found = {one for row in self.workshop.stock if row.material == material for one in row.in_hand}
         return sorted(found)
 
 

@@ -109,6 +109,10 @@ class New(Command):
             str,
             typer.Option(metavar="SIZE", help="Largest size of each plate in mm, such as 120x80."),
         ] = "",
+        settings: Annotated[
+            list[str],
+            typer.Option("--set", metavar="KEY=VALUE", help="A parameter of the design, such as slots=6."),
+        ] = [],  # noqa: B006 - typer reads it, nobody changes it
         everything: Annotated[
             bool, typer.Option("--all", help="Every key, not only those that one sets first.")
         ] = False,
@@ -121,7 +125,8 @@ class New(Command):
         """
         from mechwright.cli import listing
 
-        listing.new(family, requirement, source, output, shop, fit, force=force, whole=everything)
+        start = listing.Start(requirement, source, shop, fit, tuple(settings))
+        listing.new(family, start, output, force=force, whole=everything)
 
 
 class Schema(Command):

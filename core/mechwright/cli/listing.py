@@ -1,6 +1,7 @@
 """The commands ``families`` and ``new``."""
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from mechwright.cli.progress import fraction
 from mechwright.cli.telling import echo
 from mechwright.contracts.family import Family
 from mechwright.contracts.model_schema import model_schema
+from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.table import Table
 from mechwright.designs.files import read_text
 from mechwright.designs.requirement import require_synthesis
@@ -63,35 +65,44 @@ def _described(entry: Registered[Family[Any]]) -> dict[str, Any]:
     }
 
 
-def new(
-    name: str,
-    kind: str,
-    source: str,
-    output: Path | None,
-    shop: Path | None = None,
-    fit: str = "",
-    *,
-    force: bool,
-    whole: bool,
-) -> None:
+@dataclass(frozen=True)
+class Start:
+    """What a new file begins with, as it was typed."""
+
+    requirement: str = ""
+    source: str = ""
+    shop: Path | None = None
+    fit: str = ""
+    settings: tuple[str, ...] = ()
+
+
+def new(name: str, start: Start, output: Path | None, *, force: bool, whole: bool) -> None:
     """Write or print a design file, or a requirement file of a kind; all keys if ``whole``."""
-    found, told = open_host(), list[str]()
-    if kind and (shop is not None or fit):
-        raise DesignError("--requirement: is met by whatever fits it; leave --shop and --fit out")
+    found, told, kind = open_host(), list[str](), start.requirement
     family = found.family(name)
-    if kind and source:
-        raise DesignError("--from: a requirement file begins with its defaults; leave --from out")
     if kind:
+        for option, given in (
+            ("--shop and --fit", start.shop is not None or start.fit),
+            ("--set", start.settings),
+            ("--from", start.source),
+        ):
+            if given:
+                raise DesignError(
+                    f"--requirement: its file begins with its defaults; leave {option} out, and edit the file"
+                )
         require_synthesis(family, "--requirement")
         if kind not in family.requirements:
             raise DesignError(f"--requirement: {unknown(kind, tuple(family.requirements), 'kind')}")
         text = requirement_template(family, kind, name, found.all(Table), short=not whole)
         command = "mechwright synthesize"
     else:
-        draft = family.draft(source, _text(source))
+        draft = family.draft(start.source, _text(start.source))
+        if start.settings:
+            draft = _with_settings(family, draft, start.settings)
         text, command = template(family, name, found.all(Table), short=not whole, draft=draft), BUILD
-        if shop is not None or fit:
-            text, told = _of_shop(text, family, output or Path(f"{name}.toml"), shop, fit, found, whole=whole)
+        if start.shop is not None or start.fit:
+            path = output or Path(f"{name}.toml")
+            text, told = _of_shop(text, family, path, start.shop, start.fit, found, whole=whole)
     if output is None:
         typer.echo(text, nl=False)
     else:
@@ -105,6 +116,25 @@ def new(
                 f"for an editor that completes and checks it: mechwright schema {name}{option} "
                 f"-o {file_word(file)}"
             )
+
+
+def _with_settings(family: Family[Any], draft: Parameters, settings: tuple[str, ...]) -> Parameters:
+    """The parameters with what was typed as KEY=VALUE laid over them."""
+    from mechwright.designs.bounded_toml import toml_of
+    from mechwright.designs.tables import read_table
+
+    given: dict[str, Any] = {}
+    for text in settings:
+        key, equals, value = (word.strip() for word in text.partition("="))
+        if not (key and equals and value):
+            raise DesignError(f"--set: {text!r} should be KEY=VALUE, such as thickness=6")
+        try:
+            given |= toml_of(f"{key} = {value}", "--set")
+        except DesignError:
+            given[key] = value
+    values = {**draft.model_dump(exclude_unset=True), **given}
+    made: Parameters = read_table(family.Params, values, "--set", "parameters")
+    return made
 
 
 def _of_shop(

@@ -1,6 +1,6 @@
 """What a shop has in hand for a new design."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,16 +13,13 @@ class InHand:
     ----------
     material, thickness
         Of the sheet, mm; empty and None where there is none, or several.
-    sheet
-        Length and width of a ready blank, mm; None where pieces are sawn off.
-    gap
-        Stock to keep around each part, mm.
+    fits
+        Whether plates of these lengths and widths, mm, go on that sheet together; None where there is none.
     change
         Keys that put all parts on that sheet.
     """
 
     material: str = ""
     thickness: float | None = None
-    sheet: tuple[float, float] | None = None
-    gap: float = 0.0
+    fits: Callable[[Sequence[tuple[float, float]]], bool] | None = None
     change: Mapping[str, Any] = field(default_factory=dict)

@@ -344,9 +344,19 @@ def material(name: str) -> Material:
     raise DesignError(f"material {name!r} is not known; one of: {', '.join(sorted(MATERIALS))}")
 
 
+OWN_NAME = r"^[a-z0-9][a-z0-9_.-]{0,39}$"
+"""Names of materials that a shop adds."""
+
 MaterialName = Annotated[
+    str,
+    AfterValidator(lambda name: material(name).name),
+    Field(json_schema_extra={"enum": sorted(MATERIALS), "others": OWN_NAME}),
+]
+"""A field of a design's table that names a material: one that is built in, or one of the shop's own."""
+
+BuiltInMaterial = Annotated[
     str,
     AfterValidator(lambda name: material(name).name),
     Field(json_schema_extra={"enum": sorted(MATERIALS)}),
 ]
-"""A field of a design's table that names a material."""
+"""A field that names a material which is built in."""

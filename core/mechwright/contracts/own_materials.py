@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mechwright.contracts.materials import MATERIALS, NEVER, Grades, Material, MaterialName
+from mechwright.contracts.materials import MATERIALS, NEVER, BuiltInMaterial, Grades, Material
 from mechwright.contracts.parameters import Parameters
 from mechwright.errors import DesignError
 from mechwright.units import MetresPerMin, Ratio
@@ -18,7 +18,7 @@ from mechwright.units import MetresPerMin, Ratio
 class OwnMaterial(Parameters):
     """A table ``[material.NAME]``."""
 
-    like: MaterialName = Field(description="The built-in material whose figures hold where none is given.")
+    like: BuiltInMaterial = Field(description="The built-in material whose figures hold where none is given.")
     density: Annotated[Ratio, Field(gt=0, le=25)] | None = Field(None, description="Density in g/cm³.")
     modulus: Annotated[Ratio, Field(gt=0, le=1e6)] | None = Field(None, description="Young's modulus in MPa.")
     strength: Annotated[Ratio, Field(gt=0, le=5000)] | None = Field(

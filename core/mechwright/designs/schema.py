@@ -186,6 +186,16 @@ def _written(node: Any, owner: str) -> Any:
     if "anyOf" in found:
         found["anyOf"] = [one for one in found["anyOf"] if one != {"type": "null"}]
     if "unit" in found and found.get("type") in {"number", "integer"}:
-        told = {key: found.pop(key) for key in ("description", "title", "default") if key in found}
-        return {**told, "anyOf": [found, QUANTITY]}
+        return _either(found, QUANTITY)
+    if "enum" in found and (others := found.pop("others", None)):
+        return _either(found, {"type": "string", "pattern": others})
     return found
+
+
+def _either(found: dict[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
+    """A schema or another one; what is told of both stands above them."""
+    told: dict[str, Any] = {}
+    for key in ("description", "title", "default"):
+        if key in found:
+            told[key] = found.pop(key)
+    return {**told, "anyOf": [found, other]}

@@ -1,7 +1,7 @@
 """A new design that is made of what a shop has in hand, as large as a sheet allows."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -54,10 +54,16 @@ def started(
         change["parameters.material"] = hand.material
     if hand.thickness is not None:
         change |= _thicknesses(design(), hand.thickness, host)
-    sheet = fit or hand.sheet
-    if sheet is not None:
-        change |= _size(design(), sheet, hand.gap, host, together=fit is None)
-    if fit is None and hand.sheet is not None and len(_boxes(_plates(design()))) > 1:
+    rooms: dict[str, Callable[[Sequence[tuple[float, float]]], bool]] = {}
+    if fit is not None:
+        rooms[f"--fit: {fit[0]:g} x {fit[1]:g} mm"] = lambda boxes: all(_one(box, fit) for box in boxes)
+    if hand.fits is not None:
+        rooms["--shop: the sheet in hand"] = hand.fits
+    if rooms:
+        change |= _size(
+            design(), " and ".join(rooms), host, lambda boxes: all(f(boxes) for f in rooms.values())
+        )
+    if hand.fits is not None and len(_boxes(_plates(design()))) > 1:
         change |= hand.change
     return change
 
@@ -100,9 +106,9 @@ def _tried(design: Design, change: Mapping[str, Any], host: Host) -> Design | No
 
 
 def _size(
-    design: Design, sheet: tuple[float, float], gap: float, host: Host, *, together: bool
+    design: Design, size: str, host: Host, fits: Callable[[Sequence[tuple[float, float]]], bool]
 ) -> dict[str, Any]:
-    """The lengths that make a design as large as its plates fit on a sheet, each or all ``together``."""
+    """The lengths that make a design as large as its plates fit; ``size`` is the option and the room."""
     sizes = design.family.size_keys
     if not sizes:
         return {}
@@ -116,7 +122,7 @@ def _size(
         change = {path: _nice(path, value * math.exp(middle)) for path, value in now.items()}
         trial = _tried(design, change, host)
         plates = [] if trial is None else _plates(trial)
-        if plates and not _fits(plates, sheet, gap, together=together):
+        if plates and not fits(_boxes(plates)):
             high = middle
         elif plates:
             low, best = middle, change
@@ -125,24 +131,13 @@ def _size(
         else:
             high = middle
     if best is None:
-        raise DesignError(
-            f"--fit: no design of {design.family.name} fits on {sheet[0]:g} x {sheet[1]:g} mm; give a larger "
-            "size"
-        )
+        raise DesignError(f"{size} is too small for any design of {design.family.name}; give a larger one")
     return best
 
 
 def _nice(path: str, value: float) -> float:
     step = NICE / 5 if path.endswith("module") else NICE
     return round(max(math.floor(value / step + 1e-9), 1) * step, 6)
-
-
-def _fits(plates: Sequence[Part], sheet: tuple[float, float], gap: float, *, together: bool) -> bool:
-    """Whether each plate fits on a sheet, or all of them do in rows, with a gap around each."""
-    boxes = [(x + 2 * gap, y + 2 * gap) for x, y in _boxes(plates)]
-    if not together:
-        return all(_one(box, sheet) for box in boxes)
-    return any(_rows(boxes, way) for way in (sheet, sheet[::-1]))
 
 
 def _boxes(plates: Sequence[Part]) -> list[tuple[float, float]]:
@@ -156,19 +151,3 @@ def _boxes(plates: Sequence[Part]) -> list[tuple[float, float]]:
 
 def _one(box: tuple[float, float], sheet: tuple[float, float]) -> bool:
     return any(x <= sheet[0] and y <= sheet[1] for x, y in (box, box[::-1]))
-
-
-def _rows(boxes: Sequence[tuple[float, float]], sheet: tuple[float, float]) -> bool:
-    """Whether boxes, each lying, fit in rows from the tallest to the flattest."""
-    length, left = sheet
-    used = tall = 0.0
-    for long, flat in sorted((tuple(sorted(box, reverse=True)) for box in boxes), key=lambda one: -one[1]):
-        if long > length:
-            return False
-        if used + long > length or not tall:
-            left -= flat
-            used, tall = 0.0, flat
-            if left < 0:
-                return False
-        used += long
-    return True

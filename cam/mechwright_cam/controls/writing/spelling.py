@@ -8,7 +8,7 @@ from mechwright_cam.controls.contract import METRIC, Control
 from mechwright_cam.controls.dialect import Corners, Dialect
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.controls.words.kept import left_over
-from mechwright_cam.controls.writing.text import comment_lines, number
+from mechwright_cam.controls.writing.text import COMMENT_WIDTH, comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer, with_numbers
 from mechwright_cam.program.moves import Program, ToolSection
 from mechwright_cam.shop.machine import Machine
@@ -29,6 +29,8 @@ class Spelling(Control):
     """Words that the control would obey at the start of a comment."""
     forbidden: ClassVar[str] = ""
     """Characters that the control would obey even in a comment."""
+    comment_width: ClassVar[int] = COMMENT_WIDTH
+    """Comments are shorter than this."""
     highest_tool: ClassVar[int] = 9999
     """The largest T number that it takes."""
     retract_motion: ClassVar[str] = "G0"
@@ -151,7 +153,9 @@ class Spelling(Control):
 
     def comment(self, out: Writer, text: str) -> None:
         """Write a comment, as many lines as it takes."""
-        for line in comment_lines(text, self.active_comments, self.forbidden, self.capitals):
+        for line in comment_lines(
+            text, self.active_comments, self.forbidden, self.capitals, self.comment_width
+        ):
             out.line(f"({line})")
 
     def tool_note(self, tool: Tool) -> str:

@@ -43,13 +43,18 @@ def floored(value: float, decimals: int) -> float:
 
 
 def comment_lines(
-    text: str, active: tuple[str, ...] = (), forbidden: str = "", upper: bool = False
+    text: str,
+    active: tuple[str, ...] = (),
+    forbidden: str = "",
+    upper: bool = False,
+    width: int = COMMENT_WIDTH,
 ) -> list[str]:
     r"""Make any text safe inside parentheses: ASCII, no parentheses of its own, short lines.
 
     A line is quoted that starts with an ``active`` word, one that the control obeys at the start of a comment
     (LinuxCNC's ``LOGOPEN`` opens a file). Characters that the control would obey or choke on even in a
-    comment, ``forbidden``, become spaces. With ``upper`` the control shows capitals only.
+    comment, ``forbidden``, become spaces. With ``upper`` the control shows capitals only. A line has
+    fewer than ``width`` characters.
 
     Examples
     --------
@@ -63,5 +68,5 @@ def comment_lines(
     ascii_text = "".join(c for c in plain if not unicodedata.combining(c)).encode("ascii", "replace").decode()
     printable = "".join(c if c.isprintable() and c not in forbidden else " " for c in ascii_text)
     printable = printable.upper() if upper else printable
-    lines = textwrap.wrap(" ".join(printable.split()), COMMENT_WIDTH - 1)
+    lines = textwrap.wrap(" ".join(printable.split()), width - 1)
     return [f"'{line}" if line.upper().startswith(active) else line for line in lines] if active else lines

@@ -2,7 +2,8 @@
 (part chamfer, aluminium, 3 mm thick)
 (stock 40.00 x 30.00 x 3 mm, from X-20.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
-(file 2 of 2, load T40 chamfer-6, touch it off on the stock as Z0)
+(file 2 of 2, load T40 chamfer-6, touch it off on the)
+(stock as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T40 D 6 mm: chamfer-6, chamfer mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

@@ -2,8 +2,10 @@
 (part drill, aluminium, 4 mm thick)
 (stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
-(drills go 2.70 mm below the stock: leave room under the holes)
-(file 2 of 2, load T9 drill-8, touch it off on the stock as Z0)
+(drills go 2.70 mm below the stock: leave room under the)
+(holes)
+(file 2 of 2, load T9 drill-8, touch it off on the stock)
+(as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T9 D 8 mm: drill-8, drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

@@ -2,8 +2,10 @@
 (part engrave, aluminium, 4 mm thick)
 (stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
-(drills go 1.80 mm below the stock: leave room under the holes)
-(file 2 of 2, load T41 engrave-3, touch it off on the stock as Z0)
+(drills go 1.80 mm below the stock: leave room under the)
+(holes)
+(file 2 of 2, load T41 engrave-3, touch it off on the)
+(stock as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T41 D 3 mm: engrave-3, chamfer mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

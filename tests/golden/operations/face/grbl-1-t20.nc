@@ -2,7 +2,8 @@
 (part face, aluminium, 4 mm thick)
 (stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
-(file 1 of 1, load T20 mill-16, touch it off on the stock as Z0)
+(file 1 of 1, load T20 mill-16, touch it off on the stock)
+(as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T20 D 16 mm: mill-16, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

@@ -1,10 +1,14 @@
 (program inches-3-t24, Grbl 1.1)
 (part inches, aluminium, 0.1575 in thick)
-(stock 1.5748 x 1.1811 x 0.1575 in, from X-0.78740 Y-0.59055)
+(stock 1.5748 x 1.1811 x 0.1575 in, from X-0.78740)
+(Y-0.59055)
 (origin: axis of the part, Z0 on top of the stock)
-(drills go 0.0710 in below the stock: leave room under the holes)
-(file 3 of 3, load T24 mill-6, touch it off on the stock as Z0)
-(origin G54, Z0 on top of the stock, units inch and inch/min)
+(drills go 0.0710 in below the stock: leave room under the)
+(holes)
+(file 3 of 3, load T24 mill-6, touch it off on the stock)
+(as Z0)
+(origin G54, Z0 on top of the stock, units inch and)
+(inch/min)
 (T24 D 0.23622 in: mill-6, end mill)
 G17 G20 G40 G49 G80 G90 G91.1 G94
 G53 G0 Z-0.07874

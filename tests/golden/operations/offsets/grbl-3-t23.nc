@@ -2,10 +2,12 @@
 (part offsets, aluminium, 3 mm thick)
 (stock 72.00 x 82.00 x 3 mm, from X-36.000 Y-41.000)
 (origin: axis of the part, Z0 on top of the stock)
-(drills go 1.80 mm below the stock: leave room under the holes)
-(file 3 of 3, load T23 mill-8, touch it off on the stock as Z0 of G54,)
-(G55, each on its own stock)
-(origin G54, G55, Z0 on top of the stock, units mm and mm/min)
+(drills go 1.80 mm below the stock: leave room under the)
+(holes)
+(file 3 of 3, load T23 mill-8, touch it off on the stock)
+(as Z0 of G54, G55, each on its own stock)
+(origin G54, G55, Z0 on top of the stock, units mm and)
+(mm/min)
 (T23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
 G53 G0 Z-2

@@ -3,7 +3,8 @@
 (stock 46.00 x 30.00 x 4 mm, from X-23.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
 (vice: front and rear edges, jaws X-9.21 to X9.21, top Z-2)
-(file 1 of 1, load T27 mill-3, touch it off on the stock as Z0)
+(file 1 of 1, load T27 mill-3, touch it off on the stock)
+(as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T27 D 3 mm: mill-3, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

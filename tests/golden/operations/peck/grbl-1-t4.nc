@@ -2,8 +2,10 @@
 (part peck, aluminium, 18 mm thick)
 (stock 40.00 x 30.00 x 18 mm, from X-20.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
-(drills go 1.20 mm below the stock: leave room under the holes)
-(file 1 of 1, load T4 drill-3, touch it off on the stock as Z0)
+(drills go 1.20 mm below the stock: leave room under the)
+(holes)
+(file 1 of 1, load T4 drill-3, touch it off on the stock)
+(as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T4 D 3 mm: drill-3, drill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

@@ -2,7 +2,8 @@
 (part peel, aluminium, 6 mm thick)
 (stock 76.00 x 86.00 x 6 mm, from X-38.000 Y-43.000)
 (origin: axis of the part, Z0 on top of the stock)
-(file 1 of 1, load T23 mill-8, touch it off on the stock as Z0)
+(file 1 of 1, load T23 mill-8, touch it off on the stock)
+(as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T23 D 8 mm: mill-8, end mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94

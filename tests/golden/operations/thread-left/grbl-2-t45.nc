@@ -2,7 +2,8 @@
 (part thread-left, aluminium, 4 mm thick)
 (stock 40.00 x 30.00 x 4 mm, from X-20.000 Y-15.000)
 (origin: axis of the part, Z0 on top of the stock)
-(file 2 of 2, load T45 thread-m6, touch it off on the stock as Z0)
+(file 2 of 2, load T45 thread-m6, touch it off on the)
+(stock as Z0)
 (origin G54, Z0 on top of the stock, units mm and mm/min)
 (T45 D 4.5 mm: thread-m6, thread mill)
 G17 G21 G40 G49 G80 G90 G91.1 G94
