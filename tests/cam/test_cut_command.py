@@ -67,7 +67,7 @@ def test_the_command_writes_proven_programs_and_their_page(tmp_path):
         "laser-acrylic-5.nc",
         "PMMA, cast",
         "$32=1",
-        "ream dowel-1",
+        "ream to 10 H7",
         "drill dowel-1",
         "wheel outside",
     ):
