@@ -34,7 +34,7 @@ def as_cut(build: Build) -> AsMade:
     copies: dict[str, list[MadePart]] = {}
     for one in cutting.programs:
         if one.suffix != ".iso":
-            for part in made_parts(one):
+            for part in parts_as_cut(one):
                 copies.setdefault(part.name, []).append(part)
     if copies.keys() != {part.name for part in plates_of(build.parts)}:
         return AsMade()
@@ -43,7 +43,7 @@ def as_cut(build: Build) -> AsMade:
     return replace(said, findings=tuple(at_stage(Stage.OUTPUT, said.findings)))
 
 
-def made_parts(item: ProvenCut) -> Iterator[MadePart]:
+def parts_as_cut(item: ProvenCut) -> Iterator[MadePart]:
     """The pieces of a sheet as its text leaves them, each in its own coordinates."""
     control = "grbl-laser" if item.suffix == ".nc" else "linuxcnc-beam"
     mark = 0.0 if item.job.process.name == "plasma" else item.job.settings.marking[0]

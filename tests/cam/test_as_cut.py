@@ -8,13 +8,13 @@ import shapely
 from cut_sheets import beam, copies, plate, sheet_of, toothed
 from planning_parts import bore
 
-from mechwright_cut.as_cut import made_parts
+from mechwright_cut.as_cut import parts_as_cut
 
 
 def made(job, control="grbl-laser", change=lambda text: text):
     text, _ = beam(job, control)
     suffix = ".nc" if control == "grbl-laser" else ".ngc"
-    return list(made_parts(SimpleNamespace(job=job, text=change(text), suffix=suffix)))
+    return list(parts_as_cut(SimpleNamespace(job=job, text=change(text), suffix=suffix)))
 
 
 @pytest.mark.parametrize("control", ["grbl-laser", "linuxcnc-beam"])
@@ -36,6 +36,6 @@ def test_a_wall_that_the_text_leaves_elsewhere_is_seen():
     job = sheet_of(plate("plate", bore(8), size=(24, 18, 3)), kerf=0.2)
     wide = sheet_of(plate("plate", bore(8.04), size=(24, 18, 3)), kerf=0.2)
     text, _ = beam(wide)
-    (one,) = made_parts(SimpleNamespace(job=job, text=text, suffix=".nc"))
+    (one,) = parts_as_cut(SimpleNamespace(job=job, text=text, suffix=".nc"))
     hole = one.hole_at(0.0, 0.0, 8.0)
     assert hole.diameter == pytest.approx(8.04, abs=0.003)
