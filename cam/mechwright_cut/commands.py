@@ -18,9 +18,9 @@ class CutCommand(Command):
         as_json: AsJson = False,
         workers: Workers = None,
     ) -> None:
-        """Write programs for laser, jet, arc and wire, or drawings for a service.
+        """Write programs for laser, jet and wire.
 
-        The programs are proven; sheets say how they are run, and what is finished afterwards. Of several
+        Or drawings for a service. The programs are proven; the page says how they are run. Of several
         designs each goes into a folder of its own in DIR.
         """
         from mechwright.cli.several import write

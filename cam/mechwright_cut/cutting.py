@@ -19,6 +19,7 @@ from mechwright_cut.programs.linuxcnc_beam import linuxcnc_beam
 from mechwright_cut.proof.judge import CutProof, Question, TargetPiece, prove
 from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
 from mechwright_cut.rules.part_rules import part_findings, refused
+from mechwright_cut.service.services import services
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
 from mechwright_cut.settings.cut_table import cut_settings
 from mechwright_cut.settings.figures import Kerf, Process, kerf_of, refusal
@@ -139,7 +140,9 @@ class Cutting:
                 process = self.settings.kind(name, part.material)
                 kerf = self.kerf(process, part)
                 if kerf is not None and self._may(name, process, part):
-                    found.append((name, process, kerf, cut_part(part, process, self.settings)))
+                    rules = services()[self.settings.service]
+                    marks = rules.engraves if name == SERVICE else process.engraves
+                    found.append((name, process, kerf, cut_part(part, process, self.settings, marks=marks)))
         return found
 
     @cached_property
@@ -224,7 +227,6 @@ class Cutting:
         """Drawings for a service by file; raises ProofError where the service would not take one."""
         from mechwright_cut.service.checker import Drawn, faults
         from mechwright_cut.service.drawing import service_drawing
-        from mechwright_cut.service.services import services
 
         rules = services()[self.settings.service]
         found = {}

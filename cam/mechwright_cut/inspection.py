@@ -40,6 +40,24 @@ def _summary(part: Part, process: Process, build: Build) -> str:
     return f"{part.name}: {process.title}{time} gives {lost}"
 
 
+class RunningAsCut(Inspection):
+    """What the family says of the mechanism with its parts as cut."""
+
+    name = "as-cut"
+    stage = Stage.OUTPUT
+    needs = frozenset({PROGRAMS})
+    order = 41
+    limited = False
+    doing = "parts as made"
+    share = 10.0
+
+    def findings(self, build: Build) -> Sequence[Finding]:
+        """What keeps it from being put together, or from turning."""
+        from mechwright_cut.as_cut import as_cut
+
+        return build.made(as_cut).findings
+
+
 class ProvenCuts(Inspection):
     """Whether each program is proven."""
 

@@ -122,42 +122,64 @@ def keeps_limits(process: Process, bore: Bore) -> bool:
     return bore.fit is not None and bore.fit.upper - bore.fit.lower >= 2 * process.holes - TOLERANCES.slack
 
 
-def cut_part(part: Part, process: Process, settings: CutSettings) -> CutPart:
-    """The part as a process cuts it, with what is done afterwards."""
+def cut_part(part: Part, process: Process, settings: CutSettings, *, marks: bool | None = None) -> CutPart:
+    """The part as a process cuts it, with what is done afterwards.
+
+    ``marks`` says whether marks are cut; by default whether the process can.
+    """
     assert part.outline is not None  # noqa: S101 - plates alone are cut
+    marks = process.engraves if marks is None else marks
     fits, inner, spots, after = fitted_bores(part), [], [], list[str]()
     for number, loop in enumerate(part.outline.inner):
         arc = loop.segments[0]
         if not (loop.is_circle and isinstance(arc, Arc)):
             inner.append(loop)
             continue
-        diameter, bore = 2 * arc.radius, fits.get(number)
-        said = f"the hole of {diameter:g} mm at ({arc.centre[0]:.3f}, {arc.centre[1]:.3f})"
-        if bore is not None and bore.fit is not None and not keeps_limits(process, bore):
-            said = f"{bore.name} at ({bore.centre[0]:.3f}, {bore.centre[1]:.3f})"
-            if settings.fits == "bush":
-                diameter = round(bore.fit.size + 2 * settings.bush, 3)
-                after.append(f"bond a bush of {diameter:g} x {bore.fit.text} into {said}")
-            else:
-                diameter = round(bore.diameter - process.pilot, 3)
-                after.append(f"ream {said} to {bore.fit.text}")
+        bore = fits.get(number)
+        diameter, finish = _cut_diameter(2 * arc.radius, bore, process, settings)
+        name = "a hole" if bore is None else bore.name
         if diameter < process.least_hole(part.thickness) and settings.small_holes == "spot":
-            spots.append(arc.centre)
-            after.append(f"drill {said}: {diameter:g} mm, marked with a cross")
+            cross = ", where a cross marks it" if marks else ""
+            drilled = f"drill {name} of {diameter:g} mm at {_place(arc.centre)}{cross}"
+            after.append(f"{drilled}, and {finish}" if finish else drilled)
+            spots += [arc.centre] if marks else []
             continue
+        if finish:
+            after.append(f"{finish}: {name} at {_place(arc.centre)}")
         if diameter != 2 * arc.radius:
             loop = Loop((circle(arc.centre, diameter / 2, clockwise=True),))
         inner.append(loop)
     for detail in part.details:
         if isinstance(detail, Thread):
-            after.append(f"tap {detail.designation} at ({detail.centre[0]:.3f}, {detail.centre[1]:.3f})")
+            after.append(f"tap {detail.designation} at {_place(detail.centre)}")
         elif isinstance(detail, Chamfer):
             after.append(f"break the edge {detail.name}: {detail.width:g} mm x 45°")
-        elif not process.engraves:
+        elif not marks:
             after.append(f"mark {detail.name} by hand")
-    return CutPart(
-        part, Outline(part.outline.outer, tuple(inner), part.outline.deviation), tuple(after), tuple(spots)
-    )
+    outline = Outline(part.outline.outer, tuple(inner), part.outline.deviation)
+    return CutPart(part, outline, tuple(after), tuple(spots))
+
+
+def _cut_diameter(
+    diameter: float, bore: Bore | None, process: Process, settings: CutSettings
+) -> tuple[float, str]:
+    """How wide a round hole is cut, mm, and what makes its fit afterwards; empty where nothing has to."""
+    if bore is None or bore.fit is None or keeps_limits(process, bore):
+        return diameter, ""
+    if settings.fits == "bush":
+        wide = round(bore.fit.size + 2 * settings.bush, 3)
+        return wide, f"bond a bush of {wide:g} x {bore.fit.text}"
+    return round(bore.diameter - process.pilot, 3), f"ream to {bore.fit.text}"
+
+
+def _place(point: Point) -> str:
+    """A place on the part, mm.
+
+    >>> _place((-0.0001, 7.638))
+    '(0, 7.638)'
+    """
+    x, y = (round(value, 3) + 0.0 for value in point)
+    return f"({x:g}, {y:g})"
 
 
 def recesses(part: Part) -> list[str]:

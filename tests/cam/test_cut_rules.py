@@ -133,7 +133,7 @@ def test_holes_below_the_least_are_refused_or_marked():
     cut = cut_part(part, processes()["co2-laser"], CutSettings(small_holes="spot"))
     assert len(cut.outline.inner) == 1
     assert len(cut.strokes) == 4
-    assert [line.startswith("drill the hole of 1.2 mm") for line in cut.finishing] == [True, True]
+    assert cut.finishing[0] == "drill a hole of 1.2 mm at (0, 0), where a cross marks it"
 
 
 @pytest.mark.parametrize(("off", "told"), [(2.2, True), (2.0, True), (1.0, False)])
@@ -166,7 +166,7 @@ def test_a_fit_that_no_kerf_holds_is_reamed_bushed_or_refused():
     assert note.severity is Severity.NOTE
     cut = cut_part(part, processes()["fibre-laser"], PLAIN)
     assert 2 * cut.outline.inner[0].segments[0].radius == pytest.approx(8.0075 - 0.5, abs=1e-3)
-    assert cut.finishing == ("ream seat at (0.000, 0.000) to 8 H7 (0/+0.015)",)
+    assert cut.finishing == ("ream to 8 H7 (0/+0.015): seat at (0, 0)",)
     bushed = cut_part(part, processes()["fibre-laser"], CutSettings(fits="bush"))
     assert 2 * bushed.outline.inner[0].segments[0].radius == pytest.approx(11.0)
     assert bushed.finishing[0].startswith("bond a bush of 11 x 8 H7")
@@ -187,7 +187,7 @@ def test_threads_and_chamfers_are_finished_afterwards():
         "p", bore(5), details=(Thread("t", (0, 0), 6.0, 1.0, 3.0), Chamfer("rim", loop, "outside", 0.3))
     )
     said = cut_part(part, processes()["co2-laser"], PLAIN).finishing
-    assert said == ("tap M6x1 at (0.000, 0.000)", "break the edge rim: 0.3 mm x 45°")
+    assert said == ("tap M6x1 at (0, 0)", "break the edge rim: 0.3 mm x 45°")
 
 
 # -- the table -----------------------------------------------------------------------------------------------

@@ -74,7 +74,7 @@ def _sheet(item: ProvenCut) -> dict[str, Any]:
     return {
         "name": item.name,
         "file": item.name + item.suffix,
-        "minutes": f"{minutes(item):.1f}",
+        "minutes": "" if item.suffix == ".iso" else f", {minutes(item):.1f} min",
         "process": job.process.words,
         "material": _ordered(job.material),
         "thickness": f"{job.thickness:g}",

@@ -1,0 +1,41 @@
+"""Parts as the text of a program leaves them, and mechanisms of such parts."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import shapely
+from cut_sheets import beam, copies, plate, sheet_of, toothed
+from planning_parts import bore
+
+from mechwright_cut.as_cut import parts_as_cut
+
+
+def made(job, control="grbl-laser", change=lambda text: text):
+    text, _ = beam(job, control)
+    suffix = ".nc" if control == "grbl-laser" else ".ngc"
+    return list(parts_as_cut(SimpleNamespace(job=job, text=change(text), suffix=suffix)))
+
+
+@pytest.mark.parametrize("control", ["grbl-laser", "linuxcnc-beam"])
+def test_walls_stand_where_they_are_drawn(control):
+    job = sheet_of(toothed(), copies(plate("plate", bore(5), bore(3, (8, 0)), size=(20, 16, 3)), 2))
+    found = made(job, control)
+    assert sorted(one.label for one in found) == ["plate no 1", "plate no 2", "wheel"]
+    for one in found:
+        part = next(piece.cut.part for piece in job.pieces if piece.label == one.label)
+        assert np.abs(one.off).max() < 0.005
+        drawn = part.outline.polygon()
+        assert shapely.symmetric_difference(one.outline.shape(), drawn).area < 0.005 * drawn.length
+    hole = next(one for one in found if one.name == "plate").hole_at(8.0, 0.0, 3.0)
+    assert (hole.x, hole.y, hole.diameter) == pytest.approx((8, 0, 3), abs=0.005)
+
+
+def test_a_wall_that_the_text_leaves_elsewhere_is_seen():
+    """A hole whose circle is run 0.02 mm too large in its radius."""
+    job = sheet_of(plate("plate", bore(8), size=(24, 18, 3)), kerf=0.2)
+    wide = sheet_of(plate("plate", bore(8.04), size=(24, 18, 3)), kerf=0.2)
+    text, _ = beam(wide)
+    (one,) = parts_as_cut(SimpleNamespace(job=job, text=text, suffix=".nc"))
+    hole = one.hole_at(0.0, 0.0, 8.0)
+    assert hole.diameter == pytest.approx(8.04, abs=0.003)
