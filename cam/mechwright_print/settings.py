@@ -32,7 +32,7 @@ class PrintSettings(Parameters):
         ),
         json_schema_extra=FIRST,
     )
-    holes: Annotated[Mapping[str, HoleKind], Field(max_length=500)] = Field(
+    holes: Mapping[str, HoleKind] = Field(
         default_factory=dict,
         description='Single holes, as { "crank.pin-1" = "press" }: part, point, name of the hole.',
     )

@@ -108,7 +108,7 @@ def test_the_same_design_gives_the_same_bytes(folder, tmp_path, command_line, re
 def test_the_coupon_lies_as_its_sheet_says_and_a_small_bed_is_told():
     files = coupon_files(Printer())
     objects, items = read(files["coupon-1.3mf"])
-    assert set(objects) == {"coupon-plate", "coupon-pins", "coupon-trials", "coupon-loose-pin"}
+    assert set(objects) == {"coupon-plate", "coupon-pins", "coupon-trials", "coupon-gauge-pin"}
     assert all(np.allclose(transform[:3], np.eye(3)) for _, transform in items)
     size = np.ptp(objects["coupon-plate"].points, axis=0)
     assert size == pytest.approx([100, 100, 4])

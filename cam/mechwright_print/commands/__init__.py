@@ -55,10 +55,11 @@ class Print(Command):
         force: Annotated[bool, typer.Option("--force", help="With --measured: replace the file.")] = False,
         as_json: AsJson = False,
     ) -> None:
-        """Write printed parts: plates on the bed (3MF), meshes (STL), a sheet.
+        """Write printed parts: 3MF, STL, a sheet.
 
-        Holes, slots, flanks and the first layer are corrected for the printer, whose file the design names.
-        --coupon writes test pieces and a table; --measured makes that file of what is measured on them.
+        Plates lie on the bed. Holes, slots, flanks and the first layer are corrected for the printer, whose
+        file the design names. --coupon writes test pieces and a table; --measured makes that file of what is
+        measured on them.
         """
         from mechwright_print.commands import printing
 

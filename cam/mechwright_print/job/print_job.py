@@ -6,6 +6,7 @@ Imports the CAD kernel where meshes are asked for.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
@@ -13,12 +14,13 @@ from mechwright.errors import DesignError
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import ProcessSettings, ProcessTable, plates_by, plates_of
 from mechwright_print.compensation.plates import Compensated, compensated
-from mechwright_print.job.filament import filament_mass
-from mechwright_print.meshes.laid_out import Placed, laid_out
-from mechwright_print.meshes.printed_mesh import PrintedMesh, printed_mesh
 from mechwright_print.printer.settings import Printer
 from mechwright_print.settings import PRINT, PrintSettings
 from mechwright_print.table import is_printed, printing_of
+
+if TYPE_CHECKING:
+    from mechwright_print.meshes.laid_out import Placed
+    from mechwright_print.meshes.printed_mesh import PrintedMesh
 
 PRINTABLE = frozenset({"plate", "solid"})
 """Kinds of parts that are printed; what is turned or bought stays metal."""
@@ -106,29 +108,37 @@ class PrintJob:
     def seconds(self, part: Part) -> float:
         """How long one copy takes at the printer's flow, s; travels and small, slow layers add to it."""
         one = self.of(part)
+        from mechwright_print.job.filament import filament_mass
+
         mesh = self.meshes.get(part.name) or self.mesh_of(one)
         grams = filament_mass(one.made.model, mesh, self.settings, self.printer)
         return grams / self.printer.grams_per_mm3 / self.printer.flow
 
-    def mesh_of(self, one: JobPart) -> PrintedMesh:
+    def mesh_of(self, one: JobPart) -> "PrintedMesh":
         """The mesh of a part; raises GeometryError where it cannot be made."""
+        from mechwright_print.meshes.printed_mesh import printed_mesh
+
         correct = self.settings.compensate == "model"
         return printed_mesh(one.made, self.printer, on_top=one.on_top, correct=correct)
 
     @cached_property
-    def meshes(self) -> dict[str, PrintedMesh]:
+    def meshes(self) -> "dict[str, PrintedMesh]":
         """The mesh of each part by its name; raises GeometryError where one cannot be made."""
         return {one.part.name: self.mesh_of(one) for one in self.parts}
 
     @cached_property
-    def beds(self) -> list[list[Placed]]:
+    def beds(self) -> "list[list[Placed]]":
         """Where the copies lie; raises DesignError as :func:`laid_out` does."""
+        from mechwright_print.meshes.laid_out import laid_out
+
         meshes = [(one.part.name, self.meshes[one.part.name], copies(one.part)) for one in self.parts]
         return laid_out(meshes, self.printer.bed, self.settings.gap)
 
     @cached_property
     def masses(self) -> dict[str, float]:
         """Filament in one copy of each part by its name, g."""
+        from mechwright_print.job.filament import filament_mass
+
         return {
             one.part.name: filament_mass(
                 one.made.model, self.meshes[one.part.name], self.settings, self.printer

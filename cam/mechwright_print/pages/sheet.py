@@ -16,6 +16,7 @@ from mechwright_print.job.print_job import PrintJob, copies
 from mechwright_print.meshes.laid_out import Placed
 from mechwright_print.pages.bill import BillLine
 from mechwright_print.printer.settings import Printer
+from mechwright_print.rules.faces import overhanging_area
 
 LABEL = 60.0
 """Boxes narrower than this, mm, show their number alone."""
@@ -51,6 +52,7 @@ def sheet_html(job: PrintJob, found: Sequence[Finding], bill: Sequence[BillLine]
             "mass": job.masses[one.part.name],
             "minutes": job.seconds(one.part) / 60,
             "exact": one.part.outline is not None,
+            "overhang": overhanging_area(job.meshes[one.part.name]) if one.part.outline is None else 0.0,
         }
         for one in job.parts
     ]

@@ -2,14 +2,17 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 
 from mechwright.contracts.part import Part
 from mechwright.contracts.sections import sections
-from mechwright_print.meshes.printed_mesh import PrintedMesh
 from mechwright_print.printer.facts import STEEP
+
+if TYPE_CHECKING:
+    from mechwright_print.meshes.printed_mesh import PrintedMesh
 
 SPECK = 0.5
 """A face that hangs over less than this area is none, mm²: a line or two hold it."""
@@ -49,7 +52,7 @@ def _span(piece: "shapely.Polygon") -> float:
     return float(sides.min())
 
 
-def overhanging_area(mesh: PrintedMesh) -> float:
+def overhanging_area(mesh: "PrintedMesh") -> float:
     """Area that leans out over the bed by more than 45 degrees and does not lie on it, mm²."""
     points = mesh.mesh.points
     a, b, c = points[mesh.mesh.triangles].transpose(1, 0, 2)
