@@ -70,7 +70,7 @@ def cutting(program: Machined) -> list[np.ndarray]:
 
 
 def dense(corners: np.ndarray, owner: np.ndarray, radius: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 2) a pixel apart along pieces of a path with corners (k, 2), and the mill's radius at each."""
+    """Points (n, 2) a pixel apart along pieces of a path with corners (k, 2), and the mill's radius there."""
     way = np.where(np.diff(owner) == 0, np.hypot(*np.diff(corners, axis=0).T), 0.0)
     count = np.append(np.maximum(np.ceil(way * SCALE), 1).astype(int), 1)
     place = np.repeat(np.arange(len(corners)), count)

@@ -14,6 +14,7 @@ from mechwright.tolerances import TOLERANCES
 from mechwright_cam.operations.entry import lead_length
 from mechwright_cam.setup.job import Job, wear_margin
 from mechwright_cam.shop.cutter import cutter, makes_floor
+from mechwright_cam.shop.estimates import no_estimate
 from mechwright_cam.shop.settings import CamSettings, PathSettings
 from mechwright_cam.shop.tool import Tool
 from mechwright_plane.offsets import ROUGH, areas, grow
@@ -70,7 +71,8 @@ def usable_mills(
         others = Counter(other for tool in job.mills for other in tool.cutting)
         instead = "".join(f', or use material = "{other}"' for other, _ in others.most_common(MATERIALS))
         cure = f"give one its cutting_speed and chip_load in [cam.cutting.NAME]{instead}"
-        what = f"none has cutting data for {material}; {cure}" if job.mills else "there is none"
+        why = no_estimate(job.mills, material, job.settings.machine)
+        what = f"none has cutting data for {material}{why}; {cure}" if job.mills else "there is none"
         raise ToolError(f"cam.tools: part {job.part.name} needs an end mill, and {what}")
     through = depth >= job.thickness - TOLERANCES.noise
     mills = [tool for tool in knows if long_enough(tool, depth + (tool.nose if through else 0.0))]

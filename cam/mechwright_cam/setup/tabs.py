@@ -205,7 +205,10 @@ def _check_below(job: "Job", below: Sequence[Feature], tabs: list[Tab]) -> None:
 
 
 def _frame_at(job: "Job", ring: shapely.LinearRing, place: tuple[float, float, Point], reach: float) -> float:
-    """How far a tab reaches outwards: to the stock's edge, in a nest to the middle between two parts."""
+    """How far a tab reaches outwards: to the stock's edge, in a nest to the middle between two parts.
+
+    Beside the floor of a recess there is no middle; twice as far is frame in any case.
+    """
     part = job.part
     if not isinstance(part, Nest):
         return reach
@@ -215,7 +218,8 @@ def _frame_at(job: "Job", ring: shapely.LinearRing, place: tuple[float, float, P
     halfway = filled(shapely.buffer(shapely.Polygon(ring), part.gap / 2))
     inside = shapely.get_parts(shapely.intersection(way, halfway))  # of a recess, both of its walls
     nearest = min(inside, key=lambda piece: float(shapely.distance(piece, shapely.Point(x, y))))
-    return float(max(math.hypot(px - x, py - y) for px, py in shapely.get_coordinates(nearest).tolist()))
+    middle = max(math.hypot(px - x, py - y) for px, py in shapely.get_coordinates(nearest).tolist())
+    return float(min(middle, part.gap))
 
 
 def _across(ring: shapely.LinearRing, at: float, step: float) -> tuple[float, float, Point]:

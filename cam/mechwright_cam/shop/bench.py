@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from mechwright.contracts.materials import material
-from mechwright.designs.tables import unknown
+from mechwright.designs.tables import read_table, unknown
 from mechwright.errors import DesignError
 from mechwright.units import convert
 from mechwright_cam.shop.estimates import rigidity_of
@@ -120,7 +120,7 @@ def bench(
             f"--machine: {figures['name']} reads {preset.reads}, for which no program is written here; if "
             "yours has another control, name it: --control grbl"
         )
-    machine = Machine.model_validate({**figures, **changes})
+    machine = read_table(Machine, {**figures, **changes}, "--machine", model)
     return Bench(model, changes, machine, preset, control or preset.control)
 
 
@@ -162,7 +162,8 @@ def mills_of(text: str, of: Bench, sheets: list[Sheet]) -> tuple[Tool, ...]:
         whole = WHOLE.get(shank)
         long = float(match["l"]) if match["l"] else float(round(FLUTES * size))
         nut = next((nut for most, nut in NUTS if collet is not None and collet <= most), None)
-        found[name] = Tool.model_validate(
+        found[name] = read_table(
+            Tool,
             {
                 "name": name,
                 "number": number,
@@ -173,7 +174,9 @@ def mills_of(text: str, of: Bench, sheets: list[Sheet]) -> tuple[Tool, ...]:
                 "shank_diameter": shank,
                 **({} if whole is None or whole - GRIP < long else {"overall": whole}),
                 **({} if nut is None else {"holder_diameter": nut}),
-            }
+            },
+            "--mills",
+            name,
         )
     if not found:
         raise DesignError("--mills: names no mill; give diameters in mm, such as --mills 3.175,2,1")

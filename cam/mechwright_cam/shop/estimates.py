@@ -120,6 +120,27 @@ def estimate(tool: Tool, name: str, machine: Machine) -> CuttingData | None:
     )
 
 
+def no_estimate(mills: Sequence[Tool], name: str, machine: Machine) -> str:
+    """In words, why mills have no estimate for a material; empty where one of them has.
+
+    >>> fast = Machine(spindle_min=20000, spindle_max=30000)
+    >>> mill = Tool(name="mill", number=1, kind="end-mill", diameter=6, flutes=1, flute_length=12)
+    >>> no_estimate([mill], "acrylic", fast)
+    ', as the spindle turns at 20000 rev/min at least: 377 m/min at 6 mm, and acrylic takes 300 at most'
+    """
+    stuff = material(name)
+    if stuff.kind not in CHIPS:
+        return f", and {name} is not estimated"
+    if not mills or any(estimate(mill, name, machine) is not None for mill in mills):
+        return ""
+    least, slowest = min(mill.diameter for mill in mills), machine.speed(0.0)
+    speed = math.pi * least * slowest / 1000
+    return (
+        f", as the spindle turns at {slowest:g} rev/min at least: {speed:.0f} m/min at {least:g} mm, and {name} "
+        f"takes {stuff.speed[1]:g} at most"
+    )
+
+
 def slot_depth(stuff: Material, diameter: float, chip: float, kind: Rigidity, force: float = 0.0) -> float:
     """Deepest slot, mm, of a mill that is fed ``chip`` mm per tooth on a machine that bears ``force`` N.
 
