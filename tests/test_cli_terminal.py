@@ -165,8 +165,9 @@ def test_names_that_are_installed_are_offered() -> None:
     assert completing.controls("") == [
         *("fanuc", "grbl", "haas", "heidenhain-tnc", "linuxcnc", "mach3", "siemens-840d")
     ]
-    assert completing.formats("stl,s") == ["stl,step"]
-    assert completing.formats("stl,") == [f"stl,{name}" for name in ("3mf", "dxf", "glb", "mjcf", "step")]
+    assert completing.formats("stl,ste") == ["stl,step"]
+    others = ("3mf", "dxf", "glb", "mjcf", "sdf", "step", "urdf")
+    assert completing.formats("stl,") == [f"stl,{name}" for name in others]
     assert completing.curves("spl") == ["spline", "spline3"]
 
 

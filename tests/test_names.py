@@ -259,4 +259,5 @@ def test_pages_write_what_they_have_named(path):
         named = {one.name for one in files_of(build, build.wanted)}
         for page in [page for page in host().all(Page) if "model" in page.commands]:
             assert set(page.files(build)) <= named, page.name
+    # A process besides milling brings a command of its own.
     assert set(WORK) <= {command for page in host().all(Page) for command in page.commands}

@@ -124,6 +124,11 @@ def _bulged(document, space):
     line[0] = (*line[0][:4], line[0][4] + 0.02)
 
 
+def _crossed(document, space):
+    line = space.query("LWPOLYLINE").first
+    line.set_points([(-20, -15), (20, 15), (20, -15), (-20, 5)], format="xy")
+
+
 def _centre(document, space):
     document.layers.add("CENTRE")
     space.add_circle((0, 0), 2, {"layer": "CENTRE"})
@@ -145,6 +150,7 @@ def _centre(document, space):
         (_gone, "1 contours are drawn|2 contours are drawn"),
         (_bulged, "no contour is within"),
         (_centre, "layer CENTRE must not be there"),
+        (_crossed, "cross themselves"),
     ],
 )
 def test_no_service_would_take_it(change, said):
