@@ -102,7 +102,7 @@ def test_the_help_of_every_such_command_ends_with_what_to_type(
     command_line: Callable[..., tuple[int, str, str]],
 ) -> None:
     needing = {one.name: one for one in load(group=COMMANDS).all(Command) if one.libraries}
-    assert set(needing) == {"live", "sweep"}
+    assert set(needing) == {"live", "mcp", "sweep"}
     table = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
     for name, command in needing.items():
         extra = EXTRAS[command.libraries[0]]

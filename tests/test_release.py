@@ -77,6 +77,23 @@ def test_the_changelog_has_a_part_for_every_version_newest_first():
     assert all(version <= Version(mechwright.__version__) for version in versions)
 
 
+def test_the_citation_names_this_version_and_licence():
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+    assert (cited["cff-version"], cited["type"]) == ("1.2.0", "software")
+    assert cited["version"] == mechwright.__version__
+    assert cited["license"] == PROJECT["license"]
+    assert all(author.keys() == {"name"} for author in cited["authors"])
+
+
+def test_every_package_says_that_it_is_typed():
+    packages = {
+        path.parent for where in ("core", "cam", "plugins") for path in (ROOT / where).glob("*/__init__.py")
+    }
+    assert len(packages) > 10
+    untyped = sorted(one.name for one in packages if not (one / "py.typed").exists())
+    assert untyped == []
+
+
 def test_fragments_of_the_changelog_are_what_towncrier_takes():
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["towncrier"]
     news = (ROOT / settings["filename"]).read_text("utf-8")

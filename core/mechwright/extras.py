@@ -16,6 +16,7 @@ from mechwright.shell import word
 NAME = "mechwright"
 EXTRAS = {
     "distributed": "scale",
+    "mcp": "mcp",
     "pandas": "data",
     "plotly": "data",
     "pyarrow": "scale",

@@ -144,13 +144,14 @@ def test_the_wheel_indexes_under_contact(table):
     angle, off = np.array(errors).T
     assert off.max() < (0.003 if of.params.law == "straight" else 0.020)
     if of.params.law == "straight":
-        # Well inside a stroke: half the clearance over the distance of the roller from the wheel's axis.
+        # Well inside a stroke: half the clearance over the distance of the roller from the wheel's axis, and what
+        # the soft contact gives, 1.3e-5 rad, for a moment twice that where the roller meets the other wall.
         frame = mechanism_of(of.params)
         phi = frame.crank_half - angle % frame.pitch
         inside = np.abs(phi) < 0.9 * frame.crank_half
         lever = np.abs(frame.axes - frame.crank * np.exp(1j * phi[inside]))
         assert inside.sum() > 100
-        assert (off[inside] < HALF / lever + 2e-5).all()
+        assert (off[inside] < HALF / lever + 3e-5).all()
 
 
 def test_pieces_are_convex_and_make_up_the_section():

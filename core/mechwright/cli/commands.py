@@ -19,6 +19,7 @@ from mechwright.cli.command import (
     Workers,
     names,
 )
+from mechwright.cli.study_commands import Sweep, Synthesize
 from mechwright.contracts.plugin import Plugin
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.plugins.hookspecs import hookimpl
@@ -312,74 +313,31 @@ class Build(Command):
         write(designs, output, wanted, workers, as_json=as_json)
 
 
-class Synthesize(Command):
-    """``mechwright synthesize``."""
+class Mcp(Command):
+    """``mechwright mcp``."""
 
-    name = "synthesize"
-    order = 90
-
-    def run(
-        self,
-        requirement: Annotated[
-            Path,
-            typer.Argument(
-                metavar="REQUIREMENT",
-                help="A requirement file (TOML).",
-                show_default=False,
-                autocompletion=completing.requirement_files,
-            ),
-        ],
-        output: OutputFolder,
-        as_json: AsJson = False,
-        minutes: Annotated[
-            bool,
-            typer.Option("--minutes", help="Compare the designs by their minutes on the mill as well."),
-        ] = False,
-    ) -> None:
-        """Find designs that meet a requirement.
-
-        One design file each, best first, and a page on which they move and are compared. The exit code is 1
-        if none meets it.
-        """
-        from mechwright.cli import synthesis
-
-        synthesis.synthesize(requirement, output, as_json, minutes)
-
-
-class Sweep(Command):
-    """``mechwright sweep``."""
-
-    name = "sweep"
-    order = 95
-    libraries = ("pyarrow",)
+    name = "mcp"
+    order = 98
+    reads_once = False
+    libraries = ("mcp",)
 
     def run(
         self,
-        study: Annotated[
-            Path,
-            typer.Argument(metavar="STUDY", help="A study file (TOML).", show_default=False),
+        folder: Annotated[
+            Path, typer.Argument(metavar="FOLDER", help="All files stay below it.", show_default=False)
         ],
-        output: OutputFolder,
-        workers: Annotated[
-            int | None,
-            typer.Option(min=1, max=1024, help="Processes of this machine; by default one for each core."),
-        ] = None,
-        scheduler: Annotated[
-            str | None,
-            typer.Option(metavar="ADDRESS", help="Of a Dask scheduler, such as tcp://host:8786."),
-        ] = None,
-        as_json: AsJson = False,
     ) -> None:
-        """Evaluate many designs, and find the best that build.
+        """Serve the commands to an agent, by the Model Context Protocol.
 
-        A sweep that was stopped goes on where it stood. The exit code is 1 if no design is allowed.
+        The client starts it and speaks on its standard input and output.
         """
-        from mechwright.cli import sweeping
+        from mechwright import __version__
+        from mechwright.agent.server import serve
 
-        sweeping.run(study, output, workers, scheduler, as_json)
+        serve(folder, __version__)
 
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
     """The commands that need no other room."""
-    return [Demo, Families, New, Schema, Check, Measure, Fix, Solve, Build, Synthesize, Sweep]
+    return [Demo, Families, New, Schema, Check, Measure, Fix, Solve, Build, Synthesize, Sweep, Mcp]
