@@ -19,7 +19,7 @@ from mechwright.cli.command import (
     Workers,
     names,
 )
-from mechwright.cli.study_commands import Sweep, Synthesize
+from mechwright.cli.measure_command import Measure
 from mechwright.contracts.plugin import Plugin
 from mechwright.contracts.sampling import SAMPLES
 from mechwright.plugins.hookspecs import hookimpl
@@ -199,38 +199,6 @@ class Check(Command):
         several.check(designs, Wanted(formats=names(also)), to, workers, as_json, tolerances, figures)
 
 
-class Measure(Command):
-    """``mechwright measure``."""
-
-    name = "measure"
-    order = 88
-
-    def run(
-        self,
-        design: DesignFile,
-        values: Annotated[
-            Path | None,
-            typer.Argument(metavar="CSV", help="A table of measured values, in mm.", show_default=False),
-        ] = None,
-        output: Annotated[
-            Path | None,
-            typer.Option(
-                "--output", "-o", metavar="FILE", help="Write the table to fill in.", show_default=False
-            ),
-        ] = None,
-        force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
-        as_json: AsJson = False,
-    ) -> None:
-        """Compare made parts with their drawings.
-
-        Says which limits hold, what to correct for the next piece, which parts to put together, and what play
-        the mechanism will have. The exit code is 1 if a limit does not hold.
-        """
-        from mechwright.cli import measuring
-
-        measuring.measure(design, values, output, force=force, as_json=as_json)
-
-
 class Fix(Command):
     """``mechwright fix``."""
 
@@ -311,6 +279,73 @@ class Build(Command):
 
         wanted = Wanted("build", samples, at, names(also), dxf_curves)
         write(designs, output, wanted, workers, as_json=as_json)
+
+
+class Synthesize(Command):
+    """``mechwright synthesize``."""
+
+    name = "synthesize"
+    order = 90
+
+    def run(
+        self,
+        requirement: Annotated[
+            Path,
+            typer.Argument(
+                metavar="REQUIREMENT",
+                help="A requirement file (TOML).",
+                show_default=False,
+                autocompletion=completing.requirement_files,
+            ),
+        ],
+        output: OutputFolder,
+        as_json: AsJson = False,
+        minutes: Annotated[
+            bool,
+            typer.Option("--minutes", help="Compare the designs by their minutes on the mill as well."),
+        ] = False,
+    ) -> None:
+        """Find designs that meet a requirement.
+
+        One design file each, best first, and a page on which they move and are compared. The exit code is 1
+        if none meets it.
+        """
+        from mechwright.cli import synthesis
+
+        synthesis.synthesize(requirement, output, as_json, minutes)
+
+
+class Sweep(Command):
+    """``mechwright sweep``."""
+
+    name = "sweep"
+    order = 95
+    libraries = ("pyarrow",)
+
+    def run(
+        self,
+        study: Annotated[
+            Path,
+            typer.Argument(metavar="STUDY", help="A study file (TOML).", show_default=False),
+        ],
+        output: OutputFolder,
+        workers: Annotated[
+            int | None,
+            typer.Option(min=1, max=1024, help="Processes of this machine; by default one for each core."),
+        ] = None,
+        scheduler: Annotated[
+            str | None,
+            typer.Option(metavar="ADDRESS", help="Of a Dask scheduler, such as tcp://host:8786."),
+        ] = None,
+        as_json: AsJson = False,
+    ) -> None:
+        """Evaluate many designs, and find the best that build.
+
+        A sweep that was stopped goes on where it stood. The exit code is 1 if no design is allowed.
+        """
+        from mechwright.cli import sweeping
+
+        sweeping.run(study, output, workers, scheduler, as_json)
 
 
 class Mcp(Command):
