@@ -2,11 +2,11 @@
 
 import pytest
 import shapely
+from mechwright_cam.setup.nest import Nest, Placed, make_nest
 from planning_parts import LIBRARY, job, part
 
 from mechwright.geometry import Loop
 from mechwright_cam.operations.channel import STRIP, channel_of, channel_width
-from mechwright_cam.setup.nest import Nest, Placed, make_nest
 from mechwright_cam.setup.tabs import lay_tabs
 
 HALF = 20.0
