@@ -24,13 +24,13 @@ def animation(frames: Sequence[np.ndarray], palette: Sequence[str], hundredths: 
     for frame in frames:
         out += b"\x21\xf9\x04\x00" + hundredths.to_bytes(2, "little") + b"\x00\x00"
         out += b"\x2c" + bytes(4) + size + b"\x00" + bytes((BITS,))
-        data = _packed(_codes(frame.ravel().tolist()))
+        data = _packed(codes(frame.ravel().tolist()))
         blocks = (data[start : start + 255] for start in range(0, len(data), 255))
         out += b"".join(bytes((len(block),)) + block for block in blocks) + b"\x00"
     return out + b"\x3b"
 
 
-def _codes(places: list[int]) -> Iterator[tuple[int, int]]:
+def codes(places: list[int]) -> Iterator[tuple[int, int]]:
     """The codes of LZW, each with its bits: the longest run that is known stands as one."""
     clear, end = 2**BITS, 2**BITS + 1
     known, bits = {(place,): place for place in range(clear)}, BITS + 1

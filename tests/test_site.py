@@ -11,7 +11,10 @@ from pathlib import Path
 from urllib.parse import unquote
 
 import family_pictures
+import first_hour
 import gallery
+import gif
+import numpy as np
 import pytest
 import tour
 import tree
@@ -75,6 +78,23 @@ def test_an_example_is_drawn_and_moves():
 def test_the_pictures_of_the_tour_are_what_a_build_draws():
     for name, drawn in tour.pictures().items():
         assert (tour.IMAGES / name).read_text(encoding="utf-8") == drawn, "python docs/tour.py draws it anew"
+
+
+@by_night
+def test_the_pictures_and_the_film_of_the_first_hour_are_what_its_commands_make():
+    for name, drawn in first_hour.pictures().items():
+        assert (first_hour.IMAGES / name).read_bytes() == drawn, "python docs/first_hour.py draws it anew"
+
+
+def test_a_film_has_the_frames_that_it_was_made_of():
+    frames = [np.full((5, 7), k) for k in range(3)]
+    frames[1][2, 3:] = 0
+    film = gif.animation(frames, ("#000000", "#ffffff", "#1f6f8b"), 10)
+    assert film.startswith(b"GIF89a\x07\x00\x05\x00")
+    assert film.endswith(b"\x00\x3b")
+    assert film.count(b"\x21\xf9\x04") == 3
+    # 35 places of one colour: runs of 1, 2, 3 ... places, between the codes to clear and to end.
+    assert [code for code, _ in gif.codes([1] * 6)] == [16, 1, 18, 19, 17]
 
 
 @by_night

@@ -136,8 +136,8 @@ def no_estimate(mills: Sequence[Tool], name: str, machine: Machine) -> str:
     least, slowest = min(mill.diameter for mill in mills), machine.speed(0.0)
     speed = math.pi * least * slowest / 1000
     return (
-        f", as the spindle turns at {slowest:g} rev/min at least: {speed:.0f} m/min at {least:g} mm, and {name} "
-        f"takes {stuff.speed[1]:g} at most"
+        f", as the spindle turns at {slowest:g} rev/min at least: {speed:.0f} m/min at {least:g} mm, and "
+        f"{name} takes {stuff.speed[1]:g} at most"
     )
 
 
