@@ -64,6 +64,7 @@ def test_mills_without_data_for_a_material_say_which_they_cut():
     brass = [tool.model_copy(update={"cutting": {"brass": tool.cutting["brass"]}}) for tool in mills]
     job = make_job(plate(bore(5), material="steel"), settings, brass)
     with pytest.raises(
-        mw.MechwrightError, match=r'none has cutting data for steel; .*use material = "brass"'
+        mw.MechwrightError,
+        match=r'none has cutting data for steel, and steel is not estimated; .*use material = "brass"',
     ):
         usable_mills(job, 5.0)

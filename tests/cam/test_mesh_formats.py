@@ -212,4 +212,4 @@ def test_listing_the_formats_imports_nothing_heavy():
         "print(names, sorted(heavy))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
-    assert done.stdout.strip() == "['step', 'dxf', 'stl', '3mf', 'glb', 'mjcf'] []"
+    assert done.stdout.strip() == "['step', 'dxf', 'stl', '3mf', 'glb', 'mjcf', 'urdf', 'sdf'] []"

@@ -9,11 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mechwright.contracts.part import Bore, Instance, Part, Profile
-from mechwright.geometry import Loop, Outline
+from mechwright.geometry import Loop, Outline, packing
 from mechwright_cam.operations import channel
 from mechwright_cam.planning import nesting
 from mechwright_cam.shop.settings import CamSettings
-from mechwright_plane import packing
 from mechwright_plane.nest import moved_feature
 
 

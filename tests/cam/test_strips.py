@@ -2,12 +2,12 @@
 
 import pytest
 import shapely
-from mechwright_cam.setup.nest import Nest, Placed, make_nest
 from planning_parts import LIBRARY, job, part
 
 from mechwright.geometry import Loop
 from mechwright_cam.operations.channel import STRIP, channel_of, channel_width
 from mechwright_cam.setup.tabs import lay_tabs
+from mechwright_plane.nest import Nest, Placed, make_nest
 
 HALF = 20.0
 GAP = 6.0

@@ -8,7 +8,6 @@ from mechwright.output.csv_text import csv_text
 from mechwright.output.templates import templates
 from mechwright.pipeline import Build, FileName, Page, RawStock, Wanted
 from mechwright.pipeline.page import pages_of
-from mechwright.pipeline.process import MILL, plates_by
 from mechwright_cad.sheet.page import PartDrawings
 
 if TYPE_CHECKING:
@@ -97,6 +96,8 @@ def drawings_of(build: Build) -> dict[str, list[str]]:
         if one.is_shown(part)
     }
     if build.wanted.command == "build":
+        from mechwright.pipeline.process import MILL, plates_by
+
         for part in plates_by(build.design, build.parts, MILL):
             if part.kind == "plate":
                 found.setdefault(part.name, []).append(f"{part.name}.dxf")

@@ -3,22 +3,24 @@
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import Field
 
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.part import Part
 from mechwright.contracts.plugin import Plugin
 from mechwright.contracts.table import Table
-from mechwright.designs.design import Design
 from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines, toml
 from mechwright.errors import DesignError, did_you_mean
 from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
+
+if TYPE_CHECKING:
+    from mechwright.contracts.part import Part
+    from mechwright.designs.design import Design
 
 MILL = "mill"
 """The process of what a design says nothing of."""
@@ -34,10 +36,10 @@ class Process(Plugin):
     """What it is called in a sentence, such as "laser cutting"."""
 
     @abstractmethod
-    def refuses(self, part: Part, build: Build) -> str | None:
+    def refuses(self, part: "Part", build: Build) -> str | None:
         """Why it cannot make a plate, in a clause such as "its pocket has a floor"; None where it can."""
 
-    def loses(self, part: Part, build: Build) -> Sequence[str]:  # noqa: ARG002 - for those that know
+    def loses(self, part: "Part", build: Build) -> Sequence[str]:  # noqa: ARG002 - for those that know
         """What the plate has less of than as drawn, each in a few words; by default nothing."""
         return ()
 
@@ -53,7 +55,7 @@ class Process(Plugin):
         """
         return f"move the walls by {-off:+.4f} mm"
 
-    def seconds(self, part: Part, build: Build) -> float | None:  # noqa: ARG002 - for those that know
+    def seconds(self, part: "Part", build: Build) -> float | None:  # noqa: ARG002 - for those that know
         """How long it takes for one piece by estimate; None, the default, where nobody knows."""
         return None
 
@@ -94,7 +96,7 @@ class ProcessTable(Table[ProcessSettings]):
         name = {"type": "string", "description": "The process by which all plates are made. Default: mill."}
         return {"anyOf": [name, model_schema(ProcessSettings)]}
 
-    def parts(self, value: ProcessSettings, parts: Sequence[Part], path: Path) -> Sequence[Part]:
+    def parts(self, value: ProcessSettings, parts: "Sequence[Part]", path: Path) -> "Sequence[Part]":
         """The same parts; raises DesignError for the process of what is no plate of the design."""
         plates = [part.name for part in plates_of(parts)]
         for name in value.parts:
@@ -104,18 +106,18 @@ class ProcessTable(Table[ProcessSettings]):
         return parts
 
 
-def plates_of(parts: Iterable[Part]) -> list[Part]:
+def plates_of(parts: "Iterable[Part]") -> "list[Part]":
     """The parts that are made of a plate."""
     return [part for part in parts if part.outline is not None and part.bought is None]
 
 
-def process_of(design: Design, part: str) -> str:
+def process_of(design: "Design", part: str) -> str:
     """The name of the process by which a plate of a design is made."""
     said: ProcessSettings = design.table(ProcessTable)
     return said.parts.get(part, said.default)
 
 
-def plates_by(design: Design, parts: Iterable[Part], process: str) -> list[Part]:
+def plates_by(design: "Design", parts: "Iterable[Part]", process: str) -> "list[Part]":
     """The plates among some parts of a design that are made by a process."""
     return [part for part in plates_of(parts) if process_of(design, part.name) == process]
 
@@ -156,7 +158,7 @@ def _refused(build: Build) -> Iterator[Finding]:
             )
 
 
-def _line(design: Design, part: str, process: str) -> str:
+def _line(design: "Design", part: str, process: str) -> str:
     """The line that gives one more plate a process of its own."""
     said: ProcessSettings = design.table(ProcessTable)
     parts = {**said.parts, part: process}

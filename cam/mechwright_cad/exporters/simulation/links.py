@@ -157,9 +157,10 @@ def linked(parts: Sequence[Part], motion: Motion, sample: int) -> Linked:
 def _with_parts(
     joints: Mapping[str, Joint], placed: Mapping[str, Sequence[object]]
 ) -> tuple[dict[str, Joint], list[str]]:
-    """The joints without bodies that have no parts and hold no other body, and these bodies."""
+    """The joints without bodies that move, have no parts and hold no other body; and these bodies."""
     left, empty = dict(joints), list[str]()
-    for body in [body for body, here in placed.items() if body and not here]:
+    fixed = {joint.two for joint in joints.values() if joint.kind == "fixed"}  # frames that somebody may want
+    for body in [body for body, here in placed.items() if body and not here and body not in fixed]:
         fewer = {name: joint for name, joint in left.items() if body not in (joint.one, joint.two)}
         try:
             tree_of(fewer, [one for one in placed if one and one != body and one not in empty])

@@ -10,7 +10,7 @@ def roll_pitch_yaw(rotation: Array) -> tuple[float, float, float]:
 
     >>> import numpy as np
     >>> quarter = np.array([(0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
-    >>> [round(one, 9) for one in roll_pitch_yaw(quarter)]
+    >>> [round(one, 9) + 0.0 for one in roll_pitch_yaw(quarter)]
     [0.0, 0.0, 1.570796327]
     """
     level = math.hypot(rotation[0, 0], rotation[1, 0])
