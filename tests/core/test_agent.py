@@ -158,7 +158,7 @@ def test_from_a_requirement_to_a_proven_program(tmp_path):
 
 
 async def _whole_session(root):
-    """Requirement, candidates, a change that spoils one, its fix, build, proof."""
+    """Requirement, candidates, a change that spoils one, its fix, programs, proof."""
     async with session(root) as client:
         families = (await ask(client, "families"))["answer"]
         assert "slider-crank" in {one["name"] for one in families}
@@ -178,7 +178,7 @@ async def _whole_session(root):
         fixed = await ask(client, "fix", design=design, to="parts", write=True)
         assert fixed["ok"], fixed
         await client.call_tool("write", {"file": design, "text": told, "replace": True})
-        built = await ask(client, "build", design=design, output="out")
+        built = await ask(client, "cam", design=design, output="out")
         assert built["ok"], built
         program = next((root / "out").glob("*.nc"))
         part = program.stem
