@@ -11,9 +11,13 @@ import zipfile
 import numpy as np
 import pytest
 
+from mechwright.pipeline import Build, Wanted
+from mechwright.pipeline.file_names import FileNames
+from mechwright.plugins.host import host
 from mechwright_cad.solids.tessellate import Mesh
 from mechwright_print.coupon.coupon_files import coupon_files
 from mechwright_print.meshes.printed_mesh import volume
+from mechwright_print.pages.files import PrintFiles
 from mechwright_print.printer.settings import Bed, Printer
 
 SPACE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
@@ -72,7 +76,7 @@ def test_objects_are_closed_and_the_stl_is_the_same(folder):
         forth, counts = np.unique(edges, axis=0, return_counts=True)
         assert (counts == 1).all()
         assert np.array_equal(forth, np.unique(edges[:, ::-1], axis=0))
-        data = (folder / f"{name}.stl").read_bytes()
+        data = (folder / f"{name}.print.stl").read_bytes()
         rows = np.frombuffer(data[84:], np.dtype([("n", "<f4", 3), ("c", "<f4", (3, 3)), ("a", "<u2")]))
         assert len(rows) == int.from_bytes(data[80:84], "little") == len(mesh.triangles)
         assert np.allclose(rows["c"], mesh.points[mesh.triangles], atol=1e-4)
@@ -166,3 +170,15 @@ def test_a_slicer_takes_the_plate_without_repair_and_weighs_the_same(folder, tmp
     found = re.search(r"total filament used \[g\] = ([\d.]+)", program.read_text())
     rows = list(csv.DictReader(io.StringIO((folder / "print-bill.csv").read_text())))
     assert float(rows[0]["mass_g"]) == pytest.approx(float(found[1]), rel=0.1)
+
+
+@pytest.mark.parametrize(("head", "own"), [("", []), ('process = { parts.crank = "print" }\n', ["crank"])])
+def test_a_build_has_what_the_design_gives_to_the_printer(tmp_path, request, head, own):
+    text = (request.config.rootpath / "examples/geneva-straight.toml").read_text(encoding="utf-8")
+    file = tmp_path / "geneva.toml"
+    file.write_text(head + text, encoding="utf-8")
+    with Build(file, host(), Wanted("build", formats=("stl",))) as build:
+        named = {one.name for one in PrintFiles().names(build, build.wanted)}
+        meshes = {f"{name}.print.stl" for name in own}
+        assert named == (meshes | {"plate-1.3mf", "print.html", "print-bill.csv"} if own else set())
+        assert not FileNames().findings(build)

@@ -1,8 +1,9 @@
-"""The page of ``mechwright print``: a 3MF file for each bed, an STL file for each part, and the sheet."""
+"""The printed parts: a 3MF file for each bed, an STL file for each part, and the sheet."""
 
 from typing import TYPE_CHECKING
 
 from mechwright.pipeline import Build, FileName, Page, Wanted
+from mechwright_print.settings import PRINT
 
 if TYPE_CHECKING:
     from mechwright_print.job.print_job import PrintJob
@@ -11,22 +12,29 @@ SHEET = "print.html"
 """The sheet."""
 BILL = "print-bill.csv"
 """What is needed besides the printer."""
+MESH = ".print.stl"
+"""Ending of the mesh of a part as it is printed: ``--also stl`` writes parts as they are drawn."""
 
 
 class PrintFiles(Page):
-    """``plate-1.3mf`` and on, ``NAME.stl``, ``print.html`` and ``print-bill.csv``."""
+    """``plate-1.3mf`` and on, ``NAME.print.stl``, ``print.html`` and ``print-bill.csv``.
+
+    ``build`` has them where the design gives plates to the printer.
+    """
 
     name = "print"
-    commands = frozenset({"print"})
+    commands = frozenset({"print", "build"})
     doing = "printed parts"
     share = 10.0
 
-    def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
+    def names(self, build: Build, wanted: Wanted) -> list[FileName]:
         """The meshes, the sheet and the bill; one bed at least."""
         from mechwright_print.job.print_job import PrintJob
 
+        if not _wanted(build, wanted):
+            return []
         job = build.made(PrintJob)
-        own = [FileName(f"{one.part.name}.stl", f"part {one.part.name}") for one in job.parts]
+        own = [FileName(one.part.name + MESH, f"part {one.part.name} as printed") for one in job.parts]
         beds = [FileName("plate-1.3mf", "the first bed")] if own else []
         rest = [FileName(SHEET, "the sheet of the print"), FileName(BILL, "its bill")] if own else []
         return [*own, *beds, *rest]
@@ -40,19 +48,26 @@ class PrintFiles(Page):
         from mechwright_print.pages.sheet import sheet_html
         from mechwright_print.rules.inspection import findings_of
 
-        job = build.made(PrintJob)
-        if not job.parts:
+        job = build.made(PrintJob) if _wanted(build, build.wanted) else None
+        if job is None or not job.parts:
             return {}
         found = build.made(findings_of)
         lines = bill_lines(job)
         plates = {f"plate-{number}.3mf": plate_file(job, number) for number in range(1, len(job.beds) + 1)}
-        meshes = {f"{name}.stl": stl_of(name, mesh.mesh) for name, mesh in job.meshes.items()}
+        meshes = {name + MESH: stl_of(name, mesh.mesh) for name, mesh in job.meshes.items()}
         return {
             **plates,
             **meshes,
             SHEET: sheet_html(job, found, lines, build.made(AsPrinted)),
             BILL: bill_csv(lines),
         }
+
+
+def _wanted(build: Build, wanted: Wanted) -> bool:
+    """Whether a command writes printed parts: ``print`` does, others where the design gives plates to it."""
+    from mechwright.pipeline.process import plates_by
+
+    return wanted.command == PRINT or bool(plates_by(build.design, build.parts, PRINT))
 
 
 def plate_file(job: "PrintJob", number: int) -> bytes:
