@@ -15,13 +15,16 @@ from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
 from mechwright.errors import KinematicsError
-from mechwright_cad.bodies import bodies_of
 from mechwright_cad.exporters.simulation.elements import METRES, without_noise
-from mechwright_cad.exporters.simulation.tree import Branch, check_masses, frames_of, tree_of
+from mechwright_cad.exporters.simulation.tree import Branch, check_masses, frames_of, placed_of, tree_of
 from mechwright_cad.solids.inertia import Inertia, body_moments
 
 WHOLE = math.tau - 1e-6
 """A joint that turns as far as this over the motion, rad, has no limits."""
+
+
+MOMENTS = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+"""Names of the six moments and products of inertia in URDF and SDF, with their places in the tensor."""
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,10 @@ class Linked:
     mimics: Mapping[str, tuple[str, float]]
     left_out: tuple[str, ...]
 
+    def joint_of(self, body: str) -> str:
+        """The name of the joint by which a body hangs on its parent."""
+        return next(link.branch.name for link in self.links if link.name == body)
+
 
 def linked(parts: Sequence[Part], motion: Motion, sample: int) -> Linked:
     """A mechanism in its pose at one sample of the motion.
@@ -100,13 +107,7 @@ def linked(parts: Sequence[Part], motion: Motion, sample: int) -> Linked:
     GeometryError
         A body that moves has no mass, an instance belongs to no body, or there is no such sample.
     """
-    if not motion.joints:
-        raise KinematicsError(
-            "it does not say how its bodies are joined (Motion.joints), which a simulation has to know"
-        )
-    placed: dict[str, list[tuple[Part, Instance]]] = {body: [] for body in (GROUND, *motion.poses)}
-    for one in bodies_of(parts, motion, sample):
-        placed[one.instance.body].append((one.part, one.instance))
+    placed = placed_of(parts, motion, sample)
     joints, empty = _with_parts(motion.joints, placed)
     tree = tree_of(joints, [body for body in motion.poses if body not in empty])
     bodies = frames_of(motion, sample)

@@ -8,9 +8,7 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
-from mechwright.contracts.part import Instance, Part
-from mechwright.errors import KinematicsError
-from mechwright_cad.bodies import bodies_of
+from mechwright.contracts.part import Part
 from mechwright_cad.exporters.mesh import part_mesh
 from mechwright_cad.exporters.simulation.elements import (
     METRES,
@@ -22,7 +20,7 @@ from mechwright_cad.exporters.simulation.elements import (
 )
 from mechwright_cad.exporters.simulation.mjcf_constraints import check_gears, write_constraints
 from mechwright_cad.exporters.simulation.mjcf_contacts import Placed, write_contacts
-from mechwright_cad.exporters.simulation.tree import Branch, Tree, check_masses, frames_of, tree_of
+from mechwright_cad.exporters.simulation.tree import Branch, Tree, check_masses, frames_of, placed_of, tree_of
 from mechwright_cad.solids.inertia import Inertia, body_moments
 
 TOUCH = 1e-8
@@ -39,15 +37,9 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     GeometryError
         A body that moves has no mass, an instance belongs to no body, or there is no such sample.
     """
-    if not motion.joints:
-        raise KinematicsError(
-            "it does not say how its bodies are joined (Motion.joints), which a simulation has to know"
-        )
+    placed = placed_of(parts, motion, sample)
     tree = tree_of(motion.joints, motion.poses)
     check_gears(motion.joints, tree)
-    placed: dict[str, list[tuple[Part, Instance]]] = {body: [] for body in (GROUND, *motion.poses)}
-    for one in bodies_of(parts, motion, sample):
-        placed[one.instance.body].append((one.part, one.instance))
     frames = frames_of(motion, sample)
     touching = [joint for joint in motion.joints.values() if joint.kind == "contact"]
     root, assets = _head(name, contact=bool(touching))

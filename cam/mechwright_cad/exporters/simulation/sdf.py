@@ -13,7 +13,7 @@ from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
 from mechwright_cad.exporters.simulation.elements import METRES, element, relative, text
-from mechwright_cad.exporters.simulation.links import Link, linked
+from mechwright_cad.exporters.simulation.links import MOMENTS, Link, linked
 from mechwright_cad.exporters.simulation.rotation import roll_pitch_yaw
 from mechwright_cad.exporters.simulation.urdf import NO_LIMIT, link_names
 
@@ -33,7 +33,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     for sentence in found.left_out:
         model.append(ET.Comment(f" left out: {sentence.replace('--', '- -')} "))
     if found.ground:
-        stand = element(model, "link", name=_free(STANDS, names.values()))
+        stand = element(model, "link", name=_free(STANDS, list(names.values())))
         _looks(stand, found.ground)
         _joint_of(model, "stand-on-world", "fixed", WORLD, stand.attrib["name"])
     frames = {GROUND: np.eye(4)}
@@ -51,8 +51,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
             _axis(joint, link.axis, link)
             if link.name in found.mimics:
                 other, ratio = found.mimics[link.name]
-                leader = next(one.branch.name for one in found.links if one.name == other)
-                mimic = element(joint[-1], "mimic", joint=leader, axis="axis")
+                mimic = element(joint[-1], "mimic", joint=found.joint_of(other), axis="axis")
                 for key, value in (("multiplier", ratio), ("offset", 0.0), ("reference", 0.0)):
                     element(mimic, key).text = text(value)
     for loop, (said, one, two) in found.loops.items():
@@ -66,8 +65,8 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     return written + b"\n"
 
 
-def _free(name: str, taken: object) -> str:
-    while name in taken:  # type: ignore[operator]
+def _free(name: str, taken: Sequence[str]) -> str:
+    while name in taken:
         name += "-"
     return name
 
@@ -100,8 +99,7 @@ def _inertial(link: ET.Element, mass: float, centre: Array, tensor: Array) -> No
     element(made, "pose").text = text([*centre, 0.0, 0.0, 0.0])
     element(made, "mass").text = relative([mass])
     inertia = element(made, "inertia")
-    pairs = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    for key, at in pairs.items():
+    for key, at in MOMENTS.items():
         element(inertia, key).text = relative([float(tensor[at])])
 
 

@@ -8,7 +8,7 @@ loop
     A pin between two bodies that both hang on the ground already.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,9 @@ import numpy as np
 from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Motion
+from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError, KinematicsError
+from mechwright_cad.bodies import bodies_of
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,22 @@ def _branches(chosen: dict[str, Joint]) -> tuple[Branch, ...]:
                 reached.append(body)
                 found.append(Branch(body, parent, name, joint))
     return tuple(found)
+
+
+def placed_of(parts: Sequence[Part], motion: Motion, sample: int) -> dict[str, list[tuple[Part, Instance]]]:
+    """The parts of each body and of the ground.
+
+    Raises KinematicsError for a motion that does not say how its bodies are joined, GeometryError for an
+    instance that belongs to no body, or a sample that is not there.
+    """
+    if not motion.joints:
+        raise KinematicsError(
+            "it does not say how its bodies are joined (Motion.joints), which a simulation has to know"
+        )
+    placed: dict[str, list[tuple[Part, Instance]]] = {body: [] for body in (GROUND, *motion.poses)}
+    for one in bodies_of(parts, motion, sample):
+        placed[one.instance.body].append((one.part, one.instance))
+    return placed
 
 
 def frames_of(motion: Motion, sample: int) -> dict[str, Array]:

@@ -15,7 +15,7 @@ from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
 from mechwright_cad.exporters.simulation.elements import METRES, element, relative
-from mechwright_cad.exporters.simulation.links import Link, Linked, linked
+from mechwright_cad.exporters.simulation.links import MOMENTS, Link, Linked, linked
 from mechwright_cad.exporters.simulation.rotation import roll_pitch_yaw
 
 WORLD = "world"
@@ -32,7 +32,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
     found = linked(parts, motion, sample)
     names = link_names(found)
     root = ET.Element("robot", name=name)
-    for sentence in remarks(found, "cut, see the links"):
+    for sentence in remarks(found):
         root.append(ET.Comment(f" {sentence.replace('--', '- -')} "))
     _looks(element(root, "link", name=names[GROUND]), found.ground)
     for link in found.links:
@@ -63,10 +63,10 @@ def link_names(found: Linked) -> Mapping[str, str]:
     return {GROUND: world, **{body: body for body in bodies}}
 
 
-def remarks(found: Linked, how: str) -> list[str]:
+def remarks(found: Linked) -> list[str]:
     """What the file says of loops, and of what it leaves out."""
     loops = [
-        f"loop joint {name} of {joint.one or WORLD} and {joint.two}: {how} {name}-on-..."
+        f"loop joint {name} of {joint.one or WORLD} and {joint.two}: cut, see the links {name}-on-..."
         for name, (joint, *_) in found.loops.items()
     ]
     return [*loops, *(f"left out: {one}" for one in found.left_out)]
@@ -76,8 +76,7 @@ def _inertial(link: ET.Element, mass: float, centre: Array, tensor: Array) -> No
     made = element(link, "inertial")
     element(made, "origin", xyz=centre, rpy=[0.0, 0.0, 0.0])
     element(made, "mass", value=relative([mass]))
-    pairs = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    element(made, "inertia", **{key: relative([float(tensor[at])]) for key, at in pairs.items()})
+    element(made, "inertia", **{key: relative([float(tensor[at])]) for key, at in MOMENTS.items()})
 
 
 def _looks(link: ET.Element, looks: Sequence[tuple[Part, Instance, Array]]) -> None:
@@ -106,8 +105,7 @@ def _joint(root: ET.Element, link: Link, names: Mapping[str, str], found: Linked
     element(joint, "limit", **limit)
     if link.name in found.mimics:
         other, ratio = found.mimics[link.name]
-        leader = next(one.branch.name for one in found.links if one.name == other)
-        element(joint, "mimic", joint=leader, multiplier=ratio, offset=0.0)
+        element(joint, "mimic", joint=found.joint_of(other), multiplier=ratio, offset=0.0)
 
 
 def _origin(joint: ET.Element, place: Array) -> None:
