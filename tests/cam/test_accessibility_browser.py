@@ -52,10 +52,16 @@ def pages(tmp_path_factory):
         ROOT / "examples" / "elliptic-pair.toml",
         ROOT / "examples" / "slider-crank-quick-return.toml",
     )
+    wheel = folder / "wheel.toml"
+    text = (ROOT / "examples" / "geneva-straight.toml").read_text(encoding="utf-8")
+    wheel.write_text(f'process = "wire"\n{text}', encoding="utf-8")
+    assert commands.run("print", "--coupon", "-o", folder / "coupon").returncode == 0
     for command, design in (
         ("build", pair),
         ("solve", ROOT / "examples" / "geneva-motor.toml"),
         ("solve", gear),
+        ("cam", ROOT / "examples" / "geneva-straight.toml"),  # a page of three programs
+        ("cut", wheel),
     ):
         done = commands.run(command, design, "-o", folder / design.stem)
         assert done.returncode == 0, done.stderr
@@ -84,6 +90,8 @@ def test_pages(browser, pages, scheme):
         "assembly.html",
         "report.html",
         "study.html",
+        "cut.html",
+        "coupon.html",
     }
     wrong = {}
     for width in WIDTHS:

@@ -30,7 +30,7 @@ def test_the_summary_names_programs_quantity_offset_and_proof(made):
     page = (made / "setup.html").read_text(encoding="utf-8")
     said = text(page)
     assert "The whole job, from train.toml: 1 program," in said
-    assert re.search(r"gear gear\.nc 2 \d+\.\d × \d+\.\d × 10 aluminium G55", said)
+    assert re.search(r"gear watch the cut gear\.nc 2 \d+\.\d × \d+\.\d × 10 aluminium G55", said)
     assert "ALL PROVEN" in said
     proof = json.loads((made / "proof.json").read_text())["gear"]
     assert f"{proof['gouge_max_mm']:.4f}" in said
