@@ -71,7 +71,7 @@ def _slabs(body: Body, solids: bool) -> Sequence[Slab]:
     if solids:
         from mechwright_cad.interference.prisms import prisms_of
 
-        return prisms_of(body.part, body.instance) or _shadow(body.part, body.instance.z)
+        return prisms_of(body.part, body.instance.z) or _shadow(body.part, body.instance.z)
     return _shadow(body.part, body.instance.z) if is_light(body.part) else ()
 
 

@@ -121,13 +121,12 @@ class View:
             points = some[:, :1] * (1 - share) + some[:, 1:] * share
             place = np.floor(points[..., :2] / CELL).astype(int) - first
             clear = points[..., 2] > nearest[place[..., 0], place[..., 1]] - BEFORE
-            for line, seen in zip(points[..., :2], clear, strict=True):
-                pieces += _runs(line, seen)
-        if not pieces:
-            return shapely.MultiLineString()
-        merged = shapely.line_merge(shapely.multilinestrings([shapely.LineString(one) for one in pieces]))
-        long = [one for one in shapely.get_parts(merged) if one.length > SHORTEST * CELL]
-        return shapely.simplify(shapely.MultiLineString(long), FINE)
+            pieces.append(_runs(points[..., :2], clear))
+        found = np.concatenate(pieces) if pieces else np.empty((0, 2, 2))
+        merged = shapely.line_merge(shapely.multilinestrings(shapely.linestrings(found)))
+        parts = shapely.get_parts(merged)
+        long = parts[shapely.length(parts) > SHORTEST * CELL]
+        return shapely.simplify(shapely.multilinestrings(long), FINE)
 
 
 def _edges(points: Array, triangles: NDArray[np.int64]) -> Array:
@@ -148,14 +147,17 @@ def _edges(points: Array, triangles: NDArray[np.int64]) -> Array:
     return edges
 
 
-def _runs(line: Array, seen: NDArray[np.bool_]) -> list[Array]:
-    """The pieces of a sampled line (n, 2) that are seen; short gaps are closed."""
-    if seen.all():
-        return [line[[0, -1]]]
-    if not seen.any():
-        return []
-    change = np.flatnonzero(np.diff(np.concatenate(([False], seen, [False])).astype(int)))
-    begins, ends = change[::2], change[1::2] - 1
-    keep = begins[1:] - ends[:-1] > SHORTEST
-    begins, ends = begins[np.append(True, keep)], ends[np.append(keep, True)]
-    return [line[[a, b]] for a, b in zip(begins, ends, strict=True) if b > a]
+def _runs(lines: Array, seen: NDArray[np.bool_]) -> Array:
+    """Ends (k, 2, 2) of the pieces of sampled lines (m, n, 2) that are seen (m, n); short gaps are closed."""
+    edge = np.zeros((len(seen), 1), dtype=np.int8)
+    change = np.diff(np.concatenate((edge, seen, edge), axis=1), axis=1)
+    row, begin = np.nonzero(change > 0)
+    end = np.nonzero(change < 0)[1] - 1
+    apart = (row[1:] != row[:-1]) | (begin[1:] - end[:-1] > SHORTEST)
+    first, last = np.append(True, apart), np.append(apart, True)
+    if not len(row):
+        return np.empty((0, 2, 2))
+    row, begin, end = row[first], begin[first], end[last]
+    is_long = end > begin
+    row, begin, end = row[is_long], begin[is_long], end[is_long]
+    return np.stack((lines[row, begin], lines[row, end]), axis=1)

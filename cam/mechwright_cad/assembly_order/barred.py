@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import permutations
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -21,84 +21,107 @@ SPRUNG = {ON_SHAFTS: shaft_circlips, IN_BORES: bore_circlips}
 """Standards of rings that are spread or squeezed on their way."""
 
 
+Direction = tuple[float, ...]
+"""A unit vector, rounded."""
+
+
 class Ways:
     """Who bars whom, for all bodies of an assembly at one sample; each way is looked at once."""
 
     def __init__(self, bodies: Sequence[Body], sample: int) -> None:
         self.bodies, self.sample = tuple(bodies), sample
-        self._known: dict[tuple[float, ...], NDArray[np.bool_]] = {}
-        self._rows: dict[tuple[int, tuple[float, ...]], NDArray[np.bool_]] = {}
-        self._boxes: tuple[tuple[float, ...], list[Array]] = ((), [])
-        self._seen: dict[int, Heights] = {}
+        self._rows: dict[tuple[int, Direction], NDArray[np.bool_]] = {}
+        self._tables: dict[Direction, NDArray[np.bool_]] = {}
+        self._last: tuple[Direction, _Across] | None = None
+
+    @cached_property
+    def _meshes(self) -> list[tuple[Array, NDArray[np.int64]]]:
+        return [mesh_points(body, self.sample) for body in self.bodies]
 
     def row(self, number: int, way: Array) -> NDArray[np.bool_]:
-        """Row (n,) of :meth:`barred` for one body, without the others where they have not been asked."""
+        """A row (n,): whether the body of a number, going along a way, would meet each other body."""
         key = tuple(way.round(9).tolist())
-        if key in self._known:
-            row: NDArray[np.bool_] = self._known[key][number]
-            return row
         if (number, key) not in self._rows:
-            self._rows[number, key] = self._row(number, way)
+            if self._last is None or self._last[0] != key:
+                self._last = key, _Across(self.bodies, self.sample, way, self._meshes)
+            self._rows[number, key] = self._last[1].row(number)
         return self._rows[number, key]
-
-    def _row(self, number: int, way: Array) -> NDArray[np.bool_]:
-        mine = layers_of(self.bodies[number], self.sample, way)
-        goes = self._passing(self.bodies[number], mine)
-        boxes = self._across(way)
-        row = np.zeros(len(self.bodies), dtype=bool)
-        for j, other in enumerate(self.bodies):
-            beside = (boxes[j][1, :2] <= boxes[number][0, :2]) | (boxes[number][1, :2] <= boxes[j][0, :2])
-            if j == number or beside.any() or boxes[j][1, 2] < boxes[number][0, 2]:
-                continue
-            theirs = layers_of(other, self.sample, way)
-            if mine is not None and theirs is not None:
-                row[j] = _bars(theirs, goes)
-            else:
-                for k in {number, j} - self._seen.keys():
-                    self._seen[k] = self._heights(self.bodies[k], way)
-                row[j] = self._seen[j].bars(self._seen[number].slim())
-        return row
-
-    def _across(self, way: Array) -> list[Array]:
-        """Boxes (2, 3) of all bodies in the frame of a way; what is known of another way is forgotten."""
-        key = tuple(way.round(9).tolist())
-        if self._boxes[0] != key:
-            self._seen = {}
-            points = [mesh_points(body, self.sample)[0] @ frame_of(way).T for body in self.bodies]
-            self._boxes = (key, [np.array((one.min(axis=0), one.max(axis=0))) for one in points])
-        return self._boxes[1]
 
     def barred(self, way: Array) -> NDArray[np.bool_]:
         """A table (n, n): whether body i, going along a way, would meet body j."""
         key = tuple(way.round(9).tolist())
-        if key not in self._known:
-            self._known[key] = self._look(way)
-        return self._known[key]
+        if key not in self._tables:
+            self._tables[key] = np.array([self.row(number, way) for number in range(len(self.bodies))])
+        return self._tables[key]
 
-    def _look(self, way: Array) -> NDArray[np.bool_]:
-        layers = [layers_of(body, self.sample, way) for body in self.bodies]
-        goes = [self._passing(body, found) for body, found in zip(self.bodies, layers, strict=True)]
-        count = len(self.bodies)
-        table = np.zeros((count, count), dtype=bool)
-        for i, j in permutations(range(count), 2):
-            one, two = layers[i], layers[j]
-            if one is not None and two is not None:
-                table[i, j] = _bars(two, goes[i])
-        unlike = [k for k in range(count) if layers[k] is None]
-        heights = [self._heights(body, way) for body in self.bodies] if unlike else []
-        slim = [one.slim() for one in heights]
-        for i, j in permutations(range(count), 2):
-            if i in unlike or j in unlike:
-                table[i, j] = heights[j].bars(slim[i])
-        return table
 
-    def _heights(self, body: Body, way: Array) -> Heights:
-        points, triangles = mesh_points(body, self.sample)
-        return Heights.of(points @ frame_of(way).T, triangles)
+class _Across:
+    """Bodies at one sample as they are seen along a way; each is looked at when it is first asked for."""
 
-    @staticmethod
-    def _passing(body: Body, layers: Sequence[Layer] | None) -> list[Layer]:
-        return [replace(layer, shape=_slim(_sprung(body, layer.shape))) for layer in layers or ()]
+    def __init__(
+        self,
+        bodies: Sequence[Body],
+        sample: int,
+        way: Array,
+        meshes: Sequence[tuple[Array, NDArray[np.int64]]],
+    ) -> None:
+        self.bodies, self.sample, self.way = bodies, sample, way
+        self._seen = [points @ frame_of(way).T for points, _ in meshes]
+        self._triangles = [triangles for _, triangles in meshes]
+        self._layers: dict[int, Sequence[Layer] | None] = {}
+        self._passing: dict[int, list[Layer]] = {}
+        self._heights: dict[int, Heights] = {}
+        self._slim: dict[int, Heights] = {}
+
+    @cached_property
+    def _boxes(self) -> tuple[Array, Array]:
+        """Least and greatest corners (n, 3) of the bodies, mm; the third coordinate is along the way."""
+        low, high = (np.array([end(one, axis=0) for one in self._seen]) for end in (np.min, np.max))
+        return low, high
+
+    def row(self, number: int) -> NDArray[np.bool_]:
+        """Whether the body of a number would meet each other body, (n,)."""
+        low, high = self._boxes
+        beside = ((high[:, :2] <= low[number, :2]) | (high[number, :2] <= low[:, :2])).any(axis=1)
+        near = ~beside & (high[:, 2] >= low[number, 2])
+        near[number] = False
+        row = np.zeros(len(self.bodies), dtype=bool)
+        for other in np.flatnonzero(near).tolist():
+            row[other] = self._meets(number, other)
+        return row
+
+    def _meets(self, goes: int, stands: int) -> bool:
+        theirs = self.layers(stands)
+        if self.layers(goes) is not None and theirs is not None:
+            return _bars(theirs, self.passing(goes))
+        return self.heights(stands).bars(self.slim(goes))
+
+    def layers(self, number: int) -> Sequence[Layer] | None:
+        """The layers of a body; None where it has none across the way."""
+        if number not in self._layers:
+            self._layers[number] = layers_of(self.bodies[number], self.sample, self.way)
+        return self._layers[number]
+
+    def passing(self, number: int) -> list[Layer]:
+        """The layers of a body on its way: a little narrower, a circlip as wide as it then is."""
+        if number not in self._passing:
+            self._passing[number] = [
+                replace(layer, shape=_slim(_sprung(self.bodies[number], layer.shape)))
+                for layer in self.layers(number) or ()
+            ]
+        return self._passing[number]
+
+    def heights(self, number: int) -> Heights:
+        """The heights of a body."""
+        if number not in self._heights:
+            self._heights[number] = Heights.of(self._seen[number], self._triangles[number])
+        return self._heights[number]
+
+    def slim(self, number: int) -> Heights:
+        """The heights of a body as it passes others."""
+        if number not in self._slim:
+            self._slim[number] = self.heights(number).slim()
+        return self._slim[number]
 
 
 def _bars(stands: Sequence[Layer], goes: Sequence[Layer]) -> bool:

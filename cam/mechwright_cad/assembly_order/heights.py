@@ -4,7 +4,7 @@ A body that goes along a way meets another if somewhere on the grid the other re
 the first begins. So each body needs two heights at each place, its least and its greatest.
 """
 
-from collections.abc import Iterator
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,9 +22,6 @@ LOOSE = 0.1
 _FLAT = 1e-6
 """Least share of a triangle's area that is seen along a way; others stand along it."""
 
-_BATCH = 2_000_000
-"""Points that are looked at in one go."""
-
 
 @dataclass(frozen=True)
 class Heights:
@@ -40,21 +37,19 @@ class Heights:
     @classmethod
     def of(cls, points: Array, triangles: NDArray[np.int64]) -> "Heights":
         """Of a mesh with points (n, 3) whose third coordinate is along the way."""
+        from mechwright_cad.assembly_order.height_kernel import rasterize
+
         corners = points[triangles]
         edges = corners[:, 1:] - corners[:, :1]
         seen = np.abs(edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0])
         whole = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
         corners = corners[seen > _FLAT * np.maximum(whole, _FLAT)]
-        first = np.floor(points[:, :2].min(axis=0) / CELL).astype(int) - 1
-        last = np.floor(points[:, :2].max(axis=0) / CELL).astype(int) + 1
-        wide, high = (last - first + 1).tolist()
-        least, most = np.full(wide * high, np.inf), np.full(wide * high, -np.inf)
-        for at in _covered(corners):
-            x, y = (np.floor(at[k] / CELL).astype(np.int64) - first[k] for k in (0, 1))
-            index = x * high + y
-            np.minimum.at(least, index, at[2])
-            np.maximum.at(most, index, at[2])
-        return cls(least.reshape(wide, high), most.reshape(wide, high), (int(first[0]), int(first[1])))
+        first = np.floor(points[:, :2].min(axis=0) / CELL).astype(np.int64) - 1
+        last = np.floor(points[:, :2].max(axis=0) / CELL).astype(np.int64) + 1
+        size = tuple((last - first + 1).tolist())
+        low, high = np.full(size, np.inf), np.full(size, -np.inf)
+        rasterize(*_in_rows(corners), CELL, first, low, high)
+        return cls(low, high, (int(first[0]), int(first[1])))
 
     def slim(self) -> "Heights":
         """The body one place narrower, all round; one so thin that nothing would be left as it is."""
@@ -80,25 +75,17 @@ class Heights:
         return window
 
 
-def _covered(corners: Array) -> Iterator[Array]:
-    """Points (3, n) on triangles (k, 3, 3), at least one in every place that a triangle covers well.
+def _in_rows(corners: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Triangles (k, 3, 3), the longest side first, and steps (k, 2) along it and up to the corner opposite.
 
-    Rows parallel to the longest edge run up to the corner opposite; both counts are powers of two, so that
-    many triangles are looked at in one go.
+    Steps are at most a place over √2 long: so one of their points lies in every place that a triangle covers,
+    however the rows run across the grid.
     """
     edges = np.linalg.norm((np.roll(corners, -1, axis=1) - corners)[:, :, :2], axis=2)
-    longest = edges.argmax(axis=1)
-    turned = (longest[:, None] + np.arange(3)) % 3
+    turned = (edges.argmax(axis=1)[:, None] + np.arange(3)) % 3
     corners = np.take_along_axis(corners, turned[:, :, None], axis=1)
     along, up = (corners[:, k, :2] - corners[:, 0, :2] for k in (1, 2))
     long = np.maximum(edges.max(axis=1, initial=_FLAT), _FLAT)
     tall = np.abs(along[:, 0] * up[:, 1] - along[:, 1] * up[:, 0]) / long
-    counts = 2 ** np.ceil(np.log2(np.column_stack((long, tall)) / CELL + 1)).astype(int)
-    for columns, rows in np.unique(counts, axis=0).tolist():
-        s, t = (
-            part.ravel() for part in np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
-        )
-        weights = np.stack(((1 - s) * (1 - t), s * (1 - t), t))
-        some = corners[(counts == (columns, rows)).all(axis=1)]
-        for part in np.array_split(some, max(1, len(some) * weights.shape[1] // _BATCH)):
-            yield (part.transpose(2, 0, 1).reshape(-1, 3) @ weights).reshape(3, -1)
+    counts = np.ceil(np.column_stack((long, tall)) * (math.sqrt(2) / CELL)).astype(np.int64) + 1
+    return np.ascontiguousarray(corners), counts

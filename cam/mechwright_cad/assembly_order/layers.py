@@ -5,7 +5,6 @@ Where a body is conical or chamfered, a layer is as wide as its widest place.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -13,6 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.holes import joined
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.shape import Prism, Revolve, Shape
@@ -74,7 +74,7 @@ def layers_of(body: Body, sample: int, way: Array) -> tuple[Layer, ...] | None:
     return tuple(sorted(found, key=lambda layer: layer.low))
 
 
-@lru_cache(maxsize=128)
+@kept_by_form(512)
 def own_layers(part: Part) -> tuple[Layer, ...] | None:
     """The layers of a part across its own z, from its foot; None where it has none of its own.
 
@@ -83,7 +83,7 @@ def own_layers(part: Part) -> tuple[Layer, ...] | None:
     met = joined(part)
     if met.outline is not None:
         return tuple(Layer(slab.polygon, slab.bottom, slab.top) for slab in slabs_of(met, Instance("")))
-    shape = getattr(met.build, "__self__", None)
+    shape = met.build
     return tuple(_of_shape(shape)) if isinstance(shape, Shape) else None
 
 
@@ -148,7 +148,7 @@ def mesh_points(body: Body, sample: int) -> tuple[Array, NDArray[np.int64]]:
     return points @ turn.T + place, mesh.triangles
 
 
-@lru_cache(maxsize=512)
+@kept_by_form(512)
 def _coarse(part: Part) -> Surface:
     """A mesh of a part in its own coordinates, a few hundredths off its solid."""
     own = own_layers(part)

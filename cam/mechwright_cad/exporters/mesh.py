@@ -1,10 +1,9 @@
 """Mesh formats: STL and 3MF, the same bytes for the same parts, mm, z up. Imports the CAD kernel."""
 
-from functools import lru_cache
-
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.part import Part
 from mechwright_cad.exporters.threemf import BuildItem, MeshObject, package
 from mechwright_cad.solids import solid as solids
@@ -16,7 +15,7 @@ CREASE_COS = 0.8
 """Neighbouring triangles within 37° share a smooth normal in viewers; sharper edges stay sharp."""
 
 
-@lru_cache(maxsize=32)
+@kept_by_form(32)
 def part_mesh(part: Part) -> Mesh:
     """The triangles of a part."""
     return mesh_of(solids.part_solid(part), ruled=part.outline is not None)

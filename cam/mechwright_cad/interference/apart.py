@@ -1,10 +1,9 @@
 """Bodies whose boxes never meet: they need no look at their surfaces."""
 
-from functools import lru_cache
-
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.part import Instance, Part
 from mechwright_cad.bodies import Body
 
@@ -27,9 +26,14 @@ def apart(one: Body, two: Body, rotation: Array, position: Array) -> bool:
     return bool(((low > box[1]) | (high < box[0])).any(axis=1).all())
 
 
-@lru_cache(maxsize=512)
 def box_of(part: Part, instance: Instance) -> Array:
     """The least and the greatest corner (2, 3) of a box round a body, in the body's frame, mm."""
+    lifted: Array = np.add(_box(part), (0.0, 0.0, instance.z))
+    return lifted
+
+
+@kept_by_form(512)
+def _box(part: Part) -> Array:
     if part.outline is not None:
         x0, y0, x1, y1 = part.outline.bounds
         low, high = 0.0, part.thickness
@@ -38,4 +42,4 @@ def box_of(part: Part, instance: Instance) -> Array:
 
         box = part_solid(part).BoundingBox()
         x0, y0, x1, y1, low, high = box.xmin, box.ymin, box.xmax, box.ymax, box.zmin, box.zmax
-    return np.array(((x0, y0, low + instance.z), (x1, y1, high + instance.z)))
+    return np.array(((x0, y0, low), (x1, y1, high)))

@@ -1,12 +1,13 @@
 """The check itself: every pair of bodies, over the whole motion."""
 
 from collections.abc import Callable, Sequence
-from functools import lru_cache, partial
+from functools import partial
 from itertools import combinations, product
 
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.holes import joined
 from mechwright.contracts.motion import Motion
@@ -60,7 +61,7 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
     count = 0
     for one, two in combinations(bodies, 2):
         rotation, position = relative(one.poses, two.poses)
-        layers = [_slabs(body.part, body.instance, solids) for body in (one, two)]
+        layers = [_slabs(body.part, body.instance.z, solids) for body in (one, two)]
         up = flat(rotation, position) if all(layers) else None
         if up is None and not solids:
             skipped |= {body.name for body in (one, two) if not body.is_plate} or {one.name, two.name}
@@ -106,16 +107,16 @@ def _is_stretched(part: Part) -> bool:
     return part.bought is not None and part.bought.stretched
 
 
-@lru_cache(maxsize=512)
-def _slabs(part: Part, instance: Instance, solids: bool) -> tuple[Slab, ...]:
+@kept_by_form(512)
+def _slabs(part: Part, low: float, solids: bool) -> tuple[Slab, ...]:
     """The layers of a plate, or of a solid if it has some and solids are asked for."""
     if part.outline is not None:
-        return slabs_of(part, instance)
+        return slabs_of(part, Instance("", low))
     if not solids:
         return ()
     from mechwright_cad.interference.prisms import prisms_of
 
-    return prisms_of(part, instance) or ()
+    return prisms_of(part, low) or ()
 
 
 def _in_space(one: Body, two: Body, path: Path) -> tuple[float, float, Array] | None:

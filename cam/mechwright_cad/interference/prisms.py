@@ -3,7 +3,6 @@
 They are compared as plates are: exactly, and in a fraction of the time. Imports the CAD kernel.
 """
 
-from functools import lru_cache
 from itertools import pairwise
 
 import cadquery as cq
@@ -13,7 +12,8 @@ from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.GeomAbs import GeomAbs_SurfaceType
 from OCP.gp import gp_Dir
 
-from mechwright.contracts.part import Instance, Part
+from mechwright.contracts.by_form import kept_by_form
+from mechwright.contracts.part import Part
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.interference.slabs import Slab
 from mechwright_cad.interference.surface import Surface
@@ -28,15 +28,15 @@ _ABOVE = 1e-4
 """Share of a layer's height at which it is cut: its corners are then where the lower edge has them."""
 
 
-def prisms_of(part: Part, instance: Instance) -> tuple[Slab, ...] | None:
-    """The layers of a solid in its body; None if a face of it is neither upright nor level."""
+def prisms_of(part: Part, low: float) -> tuple[Slab, ...] | None:
+    """The layers of a solid that begins at a height, mm; None if a face is neither upright nor level."""
     slabs = _layers(part)
     if slabs is None:
         return None
-    return tuple(Slab(slab.polygon, slab.bottom + instance.z, slab.top + instance.z) for slab in slabs)
+    return tuple(Slab(slab.polygon, slab.bottom + low, slab.top + low) for slab in slabs)
 
 
-@lru_cache(maxsize=512)
+@kept_by_form(512)
 def _layers(part: Part) -> tuple[Slab, ...] | None:
     """The layers of a solid in its own coordinates: the same for all its copies."""
     solid = part_solid(part)

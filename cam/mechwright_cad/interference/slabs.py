@@ -5,13 +5,14 @@ Coordinates are those of the body: x and y of the part, z upwards with the heigh
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.sections import sections
 from mechwright.errors import GeometryError
@@ -170,7 +171,6 @@ def _circle_centre(points: Array) -> Array:
     return centre
 
 
-@lru_cache(maxsize=512)
 def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
     """The layers of a plate in its body, from the top down, a slab for each piece; without fillets on floors.
 
@@ -178,7 +178,12 @@ def slabs_of(part: Part, instance: Instance) -> tuple[Slab, ...]:
     """
     if part.outline is None:
         raise GeometryError(f"part {part.name} is no plate")
-    base = instance.z + part.thickness
+    return _slabs_from(part, instance.z)
+
+
+@kept_by_form(512)
+def _slabs_from(part: Part, low: float) -> tuple[Slab, ...]:
+    base = low + part.thickness
     return tuple(
         Slab(piece, base - layer.bottom, base - layer.top)
         for layer in sections(part, steps=0)

@@ -5,13 +5,14 @@ triangles by the kernel, which takes 1.6 s to import; only then it is.
 """
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError
 from mechwright.tolerances import TOLERANCES
@@ -92,13 +93,17 @@ class Surface:
         return Surface(self.points - SKIN * shift, self.triangles)
 
 
-@lru_cache(maxsize=512)
 def surface_of(part: Part, instance: Instance) -> Surface:
     """The surface of a copy of a part in the frame of its body; GeometryError if the part cannot be made."""
+    return _surface_from(part, instance.z)
+
+
+@kept_by_form(512)
+def _surface_from(part: Part, low: float) -> Surface:
     if part.outline is not None:
-        return Surface(*triangles_of(slabs_of(part, instance), FACET_CHORD - TOLERANCES.flatten))
+        return Surface(*triangles_of(slabs_of(part, Instance("", low)), FACET_CHORD - TOLERANCES.flatten))
     from mechwright_cad.solids.solid import part_solid
     from mechwright_cad.solids.tessellate import mesh_of
 
     mesh = mesh_of(part_solid(part), ruled=False, tolerance=FACET_CHORD)
-    return Surface(mesh.points + np.array((0.0, 0.0, instance.z)), mesh.triangles)
+    return Surface(mesh.points + np.array((0.0, 0.0, low)), mesh.triangles)

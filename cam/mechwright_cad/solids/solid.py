@@ -8,12 +8,12 @@ This module imports the CAD kernel (1.6 s).
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 
 import cadquery as cq
 import numpy as np
 from OCP.gp import gp_Trsf
 
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.motion import Motion, Poses
 from mechwright.contracts.part import Part
@@ -42,7 +42,7 @@ def plate(outline: Outline, thickness: float) -> cq.Solid:
     return solid
 
 
-@lru_cache(maxsize=32)
+@kept_by_form(128)
 def part_solid(part: Part) -> cq.Solid:
     """The checked solid of a part, recesses cut, made once per process; a GeometryError names the part."""
     try:

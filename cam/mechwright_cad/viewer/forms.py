@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import Any
 
 import manifold3d
@@ -11,6 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.part import Instance, Part
 from mechwright.contracts.shape import Prism, Revolve, Shape, Slot
 from mechwright_cad.interference.slabs import Slab, slabs_of, triangles_of
@@ -39,7 +39,7 @@ Mesh = tuple[Array, NDArray[np.int64]]
 
 def is_light(part: Part) -> bool:
     """Whether the form of a part takes no CAD kernel."""
-    return part.outline is not None or isinstance(getattr(part.build, "__self__", None), Shape)
+    return part.outline is not None or isinstance(part.build, Shape)
 
 
 def forms_of(parts: Sequence[Part], coarser: float = 1.0) -> list[Mesh]:
@@ -49,7 +49,7 @@ def forms_of(parts: Sequence[Part], coarser: float = 1.0) -> list[Mesh]:
     return forms_of(parts, 2 * coarser) if count > MOST and coarser < 8 else found
 
 
-@lru_cache(maxsize=512)
+@kept_by_form(512)
 def form_of(part: Part, coarser: float = 1.0) -> Mesh:
     """The triangles of a part in its own coordinates, a plate on z = 0.
 
@@ -63,7 +63,7 @@ def form_of(part: Part, coarser: float = 1.0) -> Mesh:
         return triangles_of(
             [Slab(shapely.normalize(one.polygon), one.bottom, one.top) for one in slabs], chord
         )
-    shape = getattr(part.build, "__self__", None)
+    shape = part.build
     if isinstance(shape, Shape):
         return _of_shape(shape, COARSE * coarser)
     from mechwright_cad.solids.solid import part_solid

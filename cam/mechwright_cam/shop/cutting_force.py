@@ -6,6 +6,7 @@ of all slices in the cut are added over a turn, and the greatest sum is the peak
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -21,6 +22,7 @@ SLICES, PLACES = 100, 720
 """Of the depth, and of a turn: with twice as many the peak changes by less than 0.1 %."""
 
 
+@lru_cache(maxsize=512)
 def peak_force(
     stuff: Material, diameter: float, flutes: int, tooth: float, depth: float, width: float
 ) -> float:

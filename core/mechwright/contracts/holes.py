@@ -101,7 +101,7 @@ def joined(part: Part) -> Part:
     A pin in a hole of class N7 or P7, and a screw in its thread, stand in the part by their design.
     """
     if part.turned is not None and part.turned.threads:
-        return replace(part, build=part.turned.screwed.solid)
+        return replace(part, build=part.turned.screwed)
     if part.free_form is not None:
         return replace(part, free_form=part.free_form.joined)
     for bore in [feature for feature in part.features if isinstance(feature, Bore)]:

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Callable, Iterable
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.materials import material
 from mechwright.contracts.moments import moments, prism
 from mechwright.contracts.part import Part
@@ -55,7 +55,7 @@ def mass_moments(part: Part, solid: "Callable[[Part], cq.Solid]" = _built) -> Ar
     return found * scale
 
 
-@lru_cache(maxsize=256)
+@kept_by_form(256)
 def _volume_moments(part: Part, solid: "Callable[[Part], cq.Solid]") -> Array:
     if part.outline is not None:
         return moments(part)

@@ -293,8 +293,10 @@ class Part:
         elif self.outline is None and self.build is None:
             form = self.turned or self.bought
             if form is not None and form.shape is not None:
-                object.__setattr__(self, "build", form.shape.solid)
-        elif self.build is not None and not isinstance(getattr(self.build, "__self__", None), Shape):
+                object.__setattr__(self, "build", form.shape)
+        elif isinstance(shape := getattr(self.build, "__self__", None), Shape):
+            object.__setattr__(self, "build", shape)
+        elif self.build is not None and not isinstance(self.build, Shape):
             object.__setattr__(self, "build", later(self.build, f"the solid of part {self.name!r}"))
         if (self.outline is None) == (self.build is None):
             raise GeometryError(f"part {self.name} has either an outline or a solid of its own")
@@ -327,6 +329,21 @@ class Part:
         """A drawing of it as SVG: a plate from above, else a view in space; raises as ``solid`` does."""
         drawn: str = self.result("picture")
         return drawn
+
+    @cached_property
+    def form(self) -> tuple[object, ...]:
+        """What its solid depends on, and how it is ordered: equal for copies that stand elsewhere."""
+        return (
+            self.name,
+            self.outline,
+            self.thickness,
+            self.machined,
+            self.details,
+            self.build,
+            self.turned,
+            self.bought,
+            self.free_form,
+        )
 
     @property
     def kind(self) -> Literal["plate", "turned", "bought", "solid"]:

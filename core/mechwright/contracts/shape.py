@@ -103,6 +103,10 @@ class Shape:
     pieces: tuple[Revolve | Prism, ...]
     less: tuple[Revolve | Prism, ...] = ()
 
+    def __call__(self) -> "cq.Solid":
+        """The same as :meth:`solid`: a shape is what builds a part."""
+        return self.solid()
+
     def turned_over(self) -> "Shape":
         """The same upside down: what pointed up points down."""
 

@@ -41,4 +41,4 @@ def key_part(
     x = (opening.bore / 2 - opening.seat_depth, opening.key_top)
     half = opening.width / 2
     made = Shape((box(x, (-half, half), (0.0, length)),))
-    return Part(name, None, 0.0, STEEL, tuple(instances), colour, build=made.solid)
+    return Part(name, None, 0.0, STEEL, tuple(instances), colour, build=made)

@@ -153,7 +153,7 @@ def layers_of(part: Part) -> list[Layer]:
             for low, step in steps
         ]
     # A part that is made as a shape, such as a key of a length that nobody sells, is built by its method.
-    shape = getattr(part.build, "__self__", None) if part.bought is None else part.bought.shape
+    shape = part.build if part.bought is None else part.bought.shape
     if not isinstance(shape, Shape):
         raise DesignError(
             f"part {part.name} is a solid of its own: nothing says what it sweeps; leave frame out, or set "

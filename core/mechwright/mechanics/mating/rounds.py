@@ -143,7 +143,7 @@ def faces_of(part: Part) -> Iterator[Face]:
                 low, threaded = top - bore.depth, bore.centre in threads
                 yield Face(bore.name, (*bore.centre, 0.0), low, top, bore.diameter, True, bore.fit, threaded)
         return
-    shape = getattr(part.build, "__self__", None)
+    shape = part.build
     if not isinstance(shape, Shape):
         return
     if part.turned is not None:
