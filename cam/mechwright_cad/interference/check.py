@@ -1,7 +1,9 @@
 """The check itself: every pair of bodies, over the whole motion."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
+from hashlib import blake2b
 from itertools import combinations, product
 
 import numpy as np
@@ -60,38 +62,13 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
     skipped: set[str] = set()
     count = 0
     for one, two in combinations(bodies, 2):
-        rotation, position = relative(one.poses, two.poses)
-        layers = [_slabs(body.part, body.instance.z, solids) for body in (one, two)]
-        up = flat(rotation, position) if all(layers) else None
-        if up is None and not solids:
+        found = _meeting(one, two, *relative(one.poses, two.poses), solids)
+        if found is None:
             skipped |= {body.name for body in (one, two) if not body.is_plate} or {one.name, two.name}
             continue
         count += 1
-        if up is None and apart(one, two, rotation, position):
-            continue
-        if up is None:
-            hit = _in_space(one, two, space_path(rotation, position))
-            if hit is not None:
-                collisions.append(_collision(one, two, motion, *hit))
-            continue
-        path = plane_path(rotation, position)
-        height = float(position[0, 2])
-        for a, b in product(*layers):
-            other = b if up else b.face_down()
-            common = min(a.top, other.top + height) - max(a.bottom, other.bottom + height)
-            if common <= TOUCH:
-                continue
-            found = plates.meetings(a, other, path)
-            if found.hits.size:
-                depth_at = partial(plates.depth, a, other, path)
-                time, depth, (x, y) = deepest(depth_at, found.hits, path, _LOOKS_IN_PLAN)
-                z = max(a.bottom, other.bottom + height) + common / 2
-                hit = (time, min(depth, common), np.array((x, y, z)))
-                collisions.append(_collision(one, two, motion, *hit))
-            elif found.closest is not None and not path.still:
-                gap = plates.gap(a, other, path, found.closest)
-                if gap > TOUCH:
-                    gaps.append(Gap(one.name, two.name, _instant(motion, found.closest), gap))
+        collisions += [_collision(one, two, motion, *hit) for hit in found.hits]
+        gaps += [Gap(one.name, two.name, _instant(motion, time), gap) for time, gap in found.gaps]
     worst: dict[tuple[str, str], Collision] = {}
     for hit_ in sorted(collisions, key=lambda item: -item.depth):
         worst.setdefault((hit_.first, hit_.second), hit_)
@@ -101,6 +78,66 @@ def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) 
         min(gaps, key=lambda gap: gap.distance, default=None),
         tuple(sorted(skipped)),
     )
+
+
+@dataclass(frozen=True)
+class _Met:
+    """Hits as time, depth and place (3,) in the first body's frame, and gaps as time and width."""
+
+    hits: tuple[tuple[float, float, Array], ...] = ()
+    gaps: tuple[tuple[float, float], ...] = ()
+
+
+_MOST_KNOWN = 20_000
+"""Pairs whose meetings are kept."""
+
+_known: dict[tuple[object, ...], _Met | None] = {}
+
+
+def _meeting(one: Body, two: Body, rotation: Array, position: Array, solids: bool) -> _Met | None:
+    """How two bodies meet; None if that takes their solids, and these are not asked for.
+
+    It is kept: most pairs of a machine are the same in all its settings, and after a change of one part.
+    """
+    motion = blake2b(rotation.tobytes() + position.tobytes(), digest_size=16).digest()
+    key = (one.part.form, one.instance.z, two.part.form, two.instance.z, motion, solids)
+    if key not in _known:
+        if len(_known) >= _MOST_KNOWN:
+            _known.clear()
+        _known[key] = _met(one, two, rotation, position, solids)
+    return _known[key]
+
+
+def _met(one: Body, two: Body, rotation: Array, position: Array, solids: bool) -> _Met | None:
+    layers = [_slabs(body.part, body.instance.z, solids) for body in (one, two)]
+    up = flat(rotation, position) if all(layers) else None
+    if up is None and not solids:
+        return None
+    if up is None:
+        if apart(one, two, rotation, position):
+            return _Met()
+        hit = _in_space(one, two, space_path(rotation, position))
+        return _Met() if hit is None else _Met((hit,))
+    path = plane_path(rotation, position)
+    height = float(position[0, 2])
+    hits: list[tuple[float, float, Array]] = []
+    gaps: list[tuple[float, float]] = []
+    for a, b in product(*layers):
+        other = b if up else b.face_down()
+        common = min(a.top, other.top + height) - max(a.bottom, other.bottom + height)
+        if common <= TOUCH:
+            continue
+        found = plates.meetings(a, other, path)
+        if found.hits.size:
+            depth_at = partial(plates.depth, a, other, path)
+            time, depth, (x, y) = deepest(depth_at, found.hits, path, _LOOKS_IN_PLAN)
+            z = max(a.bottom, other.bottom + height) + common / 2
+            hits.append((time, min(depth, common), np.array((x, y, z))))
+        elif found.closest is not None and not path.still:
+            gap = plates.gap(a, other, path, found.closest)
+            if gap > TOUCH:
+                gaps.append((found.closest, gap))
+    return _Met(tuple(hits), tuple(gaps))
 
 
 def _is_stretched(part: Part) -> bool:
