@@ -38,6 +38,8 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("mechwright")
+# Nor what another run has kept: every test makes what it looks at.
+os.environ.setdefault("MECHWRIGHT_STORE", "off")
 # Nor must the worker that runs it: constants of whatever modules are loaded would go into the examples.
 if hasattr(providers, "is_local_module_file"):
     providers.is_local_module_file = lambda path: False

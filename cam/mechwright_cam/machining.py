@@ -14,6 +14,7 @@ from mechwright.designs.design import Design
 from mechwright.errors import DesignError, PluginError, ProofError, ToolError
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import MILL, plates_by
+from mechwright.pipeline.result_store import result_store
 from mechwright.plugins.host import Host
 from mechwright.worker_pool.sharing import shared
 from mechwright_cam.controls.contract import Control
@@ -210,7 +211,12 @@ class Machining:
             )
         parts = self._setups()
         found = shared(
-            Setups.proven_programs, parts, [one.seconds for one in parts], Setups.known, self._build.progress
+            Setups.proven_programs,
+            parts,
+            [one.seconds for one in parts],
+            Setups.known,
+            self._build.progress,
+            result_store(),
         )
         made = list(chain.from_iterable(found))
         for job, item in zip(self.jobs, made, strict=True):

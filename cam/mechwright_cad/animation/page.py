@@ -6,6 +6,7 @@ from pathlib import Path
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.output.templates import templates
+from mechwright.pipeline.result_store import stored
 from mechwright_cad.animation.scene import scene
 from mechwright_cad.viewer import VIEWER
 from mechwright_cad.viewer.script import script_data
@@ -14,6 +15,7 @@ MOTION = "motion.html"
 """The file."""
 
 
+@stored
 def motion_html(name: str, title: str, parts: Sequence[Part], motion: Motion, *, solids: bool) -> str:
     """The page of a design by its name, and in a few words; the same input gives the same text.
 

@@ -30,6 +30,7 @@ from OCP.XSControl import XSControl_WorkSession
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
+from mechwright.pipeline.result_store import stored
 from mechwright_cad.exporters.decimals import of_step
 from mechwright_cad.exporters.size_limits import add_limits, limited_faces
 from mechwright_cad.exporters.step_text import sort_styles, typed_measures
@@ -45,6 +46,7 @@ _LIMITED_INT = {**_SETTINGS_INT, "write.stepcaf.subshapes.name": 1}
 _LIMITED_TEXT = {**_SETTINGS_TEXT, "write.step.schema": "AP242DIS"}
 
 
+@stored
 def part(part: Part) -> bytes:
     """A part's solid, named and coloured, as the text of a STEP file."""
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
@@ -59,6 +61,7 @@ def part(part: Part) -> bytes:
     return _write(document, part.name, [part], limited=bool(limited_faces(part)))
 
 
+@stored
 def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
     """All instances in their poses, as the text of a STEP file.
 

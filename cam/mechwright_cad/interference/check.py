@@ -15,6 +15,7 @@ from mechwright.contracts.holes import joined
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
 from mechwright.designs.design import Design
+from mechwright.pipeline.result_store import stored
 from mechwright_cad.bodies import Body, bodies_of
 from mechwright_cad.interference import plates
 from mechwright_cad.interference.apart import apart
@@ -47,6 +48,7 @@ _ROUNDS = 4
 _CLOSER = np.array((-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0))
 
 
+@stored
 def interference(parts: Sequence[Part], motion: Motion, *, solids: bool = True) -> Report:
     """Look for bodies that stand in each other at any instant of a motion.
 

@@ -14,6 +14,7 @@ from OCP.gp import gp_Dir
 
 from mechwright.contracts.by_form import kept_by_form
 from mechwright.contracts.part import Part
+from mechwright.pipeline.result_store import stored
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.interference.slabs import Slab
 from mechwright_cad.interference.surface import Surface
@@ -37,6 +38,7 @@ def prisms_of(part: Part, low: float) -> tuple[Slab, ...] | None:
 
 
 @kept_by_form(512)
+@stored
 def _layers(part: Part) -> tuple[Slab, ...] | None:
     """The layers of a solid in its own coordinates: the same for all its copies."""
     solid = part_solid(part)

@@ -13,6 +13,7 @@ from ezdxf.filemanagement import new
 from ezdxf.layouts.base import BaseLayout
 
 from mechwright.geometry.segments import Point
+from mechwright.pipeline.result_store import stored
 from mechwright_cad.exporters.decimals import of_dxf
 from mechwright_cad.exporters.dxf import fixed_metadata, order_classes
 from mechwright_cad.sheet.sheet import (
@@ -42,6 +43,7 @@ STYLE = "MECHWRIGHT"
 """Of dimensions."""
 
 
+@stored
 def dxf(sheet: Sheet) -> bytes:
     """The whole file; the same sheet gives the same bytes."""
     with fixed_metadata():

@@ -6,6 +6,7 @@ can be selected.
 
 from collections.abc import Iterable, Iterator
 
+from mechwright.pipeline.result_store import stored
 from mechwright_cad.sheet.fonts import ENCODING, Embedded, default_font, embedded, is_plain
 from mechwright_cad.sheet.sheet import (
     DASHES,
@@ -25,6 +26,7 @@ _POINT = 72 / 25.4
 """Points in a millimetre."""
 
 
+@stored
 def pdf(sheet: Sheet, title: str = "", font: bytes = b"") -> bytes:
     """The whole file; texts with letters that Helvetica has not are written in the TrueType ``font``."""
     other = [text.text for text in _texts(sheet.items) if not is_plain(text.text)]

@@ -113,6 +113,10 @@ class Assignments:
         found._known = {id(job): (job, self.of(job)) for job in jobs}
         return found
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Jobs are other objects in another process: none is named by its identity."""
+        return {**self.__dict__, "_known": list(self._known.values())}
+
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """Jobs are other objects in another process."""
-        self.__dict__.update(state, _known={id(job): (job, one) for job, one in state["_known"].values()})
+        """The same of the jobs that are here now."""
+        self.__dict__.update(state, _known={id(job): (job, one) for job, one in state["_known"]})

@@ -9,6 +9,7 @@ import shapely
 from mechwright.arrays import Array, turned
 from mechwright.contracts.made_part import MadePart, MadeRing, MadeSection
 from mechwright.contracts.part import Part
+from mechwright.pipeline.result_store import stored
 from mechwright_cam.proof.as_made import as_made_sections, wall_sweeps
 from mechwright_cam.proof.off_path import corridor
 from mechwright_cam.proof.scene import Scene
@@ -17,6 +18,7 @@ from mechwright_cam.setup.sides import SIGNS
 from mechwright_plane.nest import Nest, Placed
 
 
+@stored
 def parts_as_made(scene: Scene) -> list[MadePart]:
     """The parts that one program makes from above, each in its own coordinates."""
     sweeps = wall_sweeps(scene)

@@ -13,6 +13,7 @@ from typing import IO, Any, TypeVar
 
 from mechwright.contracts.guard import now
 from mechwright.contracts.synthesis import Progress, unheard
+from mechwright.worker_pool.pickling import KnownUnpickler
 from mechwright.worker_pool.recorded_warnings import RecordedWarning, WarningRelay
 from mechwright.worker_pool.serving import Answer
 
@@ -146,7 +147,7 @@ class _Worker:
                 requests, answers = self._streams()
                 pickle.dump(request, requests)
                 requests.flush()
-                while not isinstance(answer := _Unpickler(answers, known).load(), Answer):
+                while not isinstance(answer := KnownUnpickler(answers, known).load(), Answer):
                     progress(*answer)
             except Exception as error:  # a process that broke down may leave anything
                 self._end()
@@ -203,12 +204,3 @@ class _Worker:
             process.kill()
             with contextlib.suppress(OSError), process:  # closes the pipes
                 pass
-
-
-class _Unpickler(pickle.Unpickler):  # noqa: S301 - of what a process of our own has written
-    def __init__(self, stream: IO[bytes], known: Sequence[object]) -> None:
-        super().__init__(stream)
-        self._known = known
-
-    def persistent_load(self, index: Any) -> object:
-        return self._known[index]

@@ -16,6 +16,7 @@ from typing import BinaryIO, NoReturn
 from mechwright.contracts.guard import during
 from mechwright.worker_pool.budget import limit_cores
 from mechwright.worker_pool.lifeline import end_with_parent
+from mechwright.worker_pool.pickling import KnownPickler
 from mechwright.worker_pool.recorded_warnings import RecordedWarning, record_warnings, take_warnings
 
 _answers: list[BinaryIO] = []
@@ -31,18 +32,6 @@ class Answer:
     warnings: Sequence[RecordedWarning] = field(default_factory=take_warnings)
 
 
-class _Pickler(pickle.Pickler):
-    """Writes an object of ``known`` as its index, so that the reader puts its own object there."""
-
-    def __init__(self, file: BinaryIO, known: Sequence[object]) -> None:
-        super().__init__(file, pickle.HIGHEST_PROTOCOL)
-        self._known = known  # an id is that of the object as long as the object lives
-        self._indices = {id(one): index for index, one in enumerate(known)}
-
-    def persistent_id(self, thing: object) -> int | None:
-        return self._indices.get(id(thing))
-
-
 def report_progress(done: float, what: str) -> None:
     """Report to the process that made the call: the part that is done, 0 to 1, and the present step."""
     if _answers:
@@ -51,7 +40,7 @@ def report_progress(done: float, what: str) -> None:
 
 def _send(message: object, known: Sequence[object] = ()) -> None:
     buffer = io.BytesIO()
-    _Pickler(buffer, known).dump(message)
+    KnownPickler(buffer, known).dump(message)
     _answers[0].write(buffer.getbuffer())
     _answers[0].flush()
 

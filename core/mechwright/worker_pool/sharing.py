@@ -10,6 +10,7 @@ from mechwright.contracts.synthesis import Progress
 from mechwright.worker_pool.budget import available_cores, limited_cores, split_cores
 from mechwright.worker_pool.pool import Known, LostError, WorkerPool
 from mechwright.worker_pool.serving import report_progress
+from mechwright.worker_pool.store import ResultStore
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -89,6 +90,7 @@ def shared(
     seconds: Sequence[float],
     known: Known | None = None,
     progress: Callable[[float], None] = lambda _: None,
+    store: ResultStore | None = None,
 ) -> list[R]:
     """The result of ``work`` for every item, in order; raises the error of the first item that fails.
 
@@ -105,7 +107,27 @@ def shared(
         The objects of an item that its result refers to: they stay those of this process.
     progress
         Called with the part of this process's own items that is done, 0 to 1.
+    store
+        What it holds is not made again, and what is made is kept there.
     """
+    places = [None if store is None else store.kept(work, item, known) for item in items]
+    kept = [[] if place is None else place.read() for place in places]
+    lacking = [index for index, found in enumerate(kept) if not found]
+    made = _made(work, [items[k] for k in lacking], [seconds[k] for k in lacking], known, progress)
+    for index, result in zip(lacking, made, strict=True):
+        kept[index] = [result]
+        if (place := places[index]) is not None:
+            place.write(result)
+    return [found[0] for found in kept]
+
+
+def _made(
+    work: Callable[[T], R],
+    items: Sequence[T],
+    seconds: Sequence[float],
+    known: Known | None,
+    progress: Callable[[float], None],
+) -> list[R]:
     own, *others = assign(seconds, available_cores()) or [[]]
     here, *cores = split_cores(available_cores(), 1 + len(others))
     found: dict[int, R] = {}

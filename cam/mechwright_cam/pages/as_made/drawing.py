@@ -5,6 +5,7 @@ import shapely
 
 from mechwright.arrays import Array
 from mechwright.contracts.made_part import MadePart
+from mechwright.pipeline.result_store import stored
 from mechwright.tolerances import TOLERANCES
 from mechwright_cad.exporters.polylines import polylines
 
@@ -14,6 +15,7 @@ DIGITS = 5
 """Decimals of coordinates, mm."""
 
 
+@stored
 def as_made_drawing(part: MadePart) -> bytes:
     """A DXF with the layers ``MADE``, ``MADE-MOST``, ``MADE-LEAST``, ``TARGET``, and marks of witness lines.
 
