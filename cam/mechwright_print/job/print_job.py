@@ -52,6 +52,14 @@ def is_asked(design: Design, parts: Sequence[Part]) -> bool:
     return is_printed(design) or bool(plates_by(design, parts, PRINT))
 
 
+def gives_parts(design: Design, parts: Sequence[Part]) -> bool:
+    """Whether a design gives parts to the printer, so that a build prints them: plates, or bodies alone."""
+    said: ProcessSettings = design.table(ProcessTable)
+    return bool(plates_by(design, parts, PRINT)) or (
+        said.default == PRINT and any(part.kind == "solid" for part in parts)
+    )
+
+
 def _check_names(design: Design, settings: PrintSettings, parts: Sequence[Part]) -> None:
     by_name = {part.name: part for part in parts}
     able = ", ".join(part.name for part in parts if part.kind in PRINTABLE) or "none"
