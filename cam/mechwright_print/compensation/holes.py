@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 from mechwright.contracts.details import Chamfer, Detail, Thread
 from mechwright.contracts.fits import Fit, hole_fit
+from mechwright.contracts.free_form import FormBore
 from mechwright.contracts.holes import exchanged
 from mechwright.contracts.part import Bore, Part
 from mechwright.errors import DesignError
@@ -59,7 +60,7 @@ def joint_kind(fit: Fit) -> JointKind:
 
 def printed_holes(part: Part, settings: PrintSettings, printer: Printer) -> list[PrintedHole]:
     """The round holes of a part; raises DesignError for one that is named and is not there."""
-    bores = [feature for feature in part.features if isinstance(feature, Bore)]
+    bores = round_holes(part)
     found = [_hole(part, bore, settings, printer) for bore in bores]
     for key in settings.holes:
         name, _, hole = key.partition(".")
@@ -71,9 +72,16 @@ def printed_holes(part: Part, settings: PrintSettings, printer: Printer) -> list
     return found
 
 
-def _hole(part: Part, bore: Bore, settings: PrintSettings, printer: Printer) -> PrintedHole:
-    thread = thread_in(part, bore)
-    if thread is not None:
+def round_holes(part: Part) -> "list[Bore | FormBore]":
+    """The round holes of a plate, or of a body of free form."""
+    if part.free_form is not None:
+        return list(part.free_form.bores)
+    return [feature for feature in part.features if isinstance(feature, Bore)]
+
+
+def _hole(part: Part, bore: "Bore | FormBore", settings: PrintSettings, printer: Printer) -> PrintedHole:
+    thread = thread_in(part, bore) if isinstance(bore, Bore) else None
+    if thread is not None and isinstance(bore, Bore):
         return _threaded(part, bore, thread, settings)
     if bore.fit is None:
         return PrintedHole(part.name, bore.name, "", bore.diameter, bore.diameter)
@@ -127,6 +135,11 @@ def _threaded(part: Part, bore: Bore, thread: Thread, settings: PrintSettings) -
 def with_targets(part: Part, holes: list[PrintedHole]) -> Part:
     """The part with its round holes as wide as their targets, without threads and fits."""
     by_name = {hole.name: hole for hole in holes}
+    if part.free_form is not None:
+        bores = tuple(
+            replace(one, diameter=by_name[one.name].target, fit=None) for one in part.free_form.bores
+        )
+        return replace(part, free_form=replace(part.free_form, bores=bores))
     for bore in [feature for feature in part.features if isinstance(feature, Bore)]:
         hole = by_name[bore.name]
         if hole.target != bore.diameter:

@@ -48,7 +48,7 @@ def sheet_html(job: PrintJob, found: Sequence[Finding], bill: Sequence[BillLine]
             "copies": copies(one.part),
             "size": job.meshes[one.part.name].size,
             "on_top": one.on_top,
-            "chamfer": job.meshes[one.part.name].chamfer,
+            "foot": job.meshes[one.part.name].foot,
             "mass": job.masses[one.part.name],
             "minutes": job.seconds(one.part) / 60,
             "exact": one.part.outline is not None,

@@ -190,6 +190,22 @@ def loss_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:  # noqa: ARG001
         )
 
 
+def form_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
+    """Of bodies of free form the bores are corrected; that all else is not is told."""
+    part = one.part
+    if part.outline is None and job.settings.compensate == "model":
+        bores = [] if part.free_form is None else [bore.name for bore in part.free_form.bores]
+        said = f"its bores {', '.join(bores)} are corrected" if bores else "it has no round holes"
+        off = job.printer.deviation.wall / 2
+        yield Finding.note(
+            "print.free-form",
+            f"{part.name} is of free form: {said}, its other faces stay as drawn and come out by "
+            f"{off:+.3f} mm on each side",
+            off,
+            "mm",
+        )
+
+
 RULES = (
     bed_rule,
     wall_rule,
@@ -197,5 +213,6 @@ RULES = (
     layer_rule,
     bridge_rule,
     loss_rule,
+    form_rule,
 )
 """All of them, in the order in which they are told."""
