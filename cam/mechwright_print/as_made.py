@@ -33,9 +33,11 @@ class PrintedTolerances(Tolerances):
     play: float = 0.0
     scatter: float = 0.0
 
-    def pin(self, name: str, diameter: float, own: float | str, *, member: bool = False) -> Contributor:
+    def pin(
+        self, name: str, diameter: float, own: float | str, *, member: bool = False, joint: str = ""
+    ) -> Contributor:
         """A joint with the play of the printed holes around it."""
-        found = super().pin(name, diameter, own, member=member)
+        found = super().pin(name, diameter, own, member=member, joint=joint)
         if not self.scatter:
             return found
         more = Zone(self.play - self.scatter, self.play + self.scatter, self.settings.distribution)

@@ -1,4 +1,4 @@
-"""What the room of printing registers: the table ``[print]``, the process, the rules, the files, and what is used up."""
+"""What the room of printing registers: the table ``[print]``, the process, rules, files, and stock."""
 
 from mechwright.contracts.plugin import Plugin
 from mechwright.plugins.hookspecs import hookimpl

@@ -39,14 +39,21 @@ class Printing(Process):
             lost.append(f"the threads of {', '.join(threads)}")
         return lost
 
-    def correction(self, off: float, walls: str) -> str:
-        """Deviations in the file of the printer."""
+    def correction(self, off: float, walls: str, part: Part, build: Build) -> str:
+        """Deviations in the file of the printer: of holes, and of outlines."""
+        from mechwright_print.compensation.holes import round_holes
+        from mechwright_print.job.print_job import PrintJob
+
+        printer = build.made(PrintJob).printer
         said = []
         if walls != "outside":
-            said.append(f"add {-2 * off:+.4f} to deviation.hole")
+            sizes = [bore.diameter for bore in round_holes(part)] or [0.0]
+            hole = printer.hole_off(sum(sizes) / len(sizes))
+            said.append(f"hole = {hole - 2 * off:.4f} (now {hole:g})")
         if walls != "inside":
-            said.append(f"add {2 * off:+.4f} to deviation.wall")
-        return " and ".join(said)
+            wall = printer.deviation.wall
+            said.append(f"wall = {wall + 2 * off:.4f} (now {wall:g})")
+        return f"set {' and '.join(said)} in [deviation] of the file of the printer"
 
     def seconds(self, part: Part, build: Build) -> float | None:
         """Filament by its volume and the printer's flow."""

@@ -123,7 +123,7 @@ def test_bores_of_a_spherical_link_are_corrected_and_the_rest_is_told(request):
     kinds = {hole.name: hole.kind for hole in made.holes}
     assert kinds == {"a0": "snug", "a": "press"}
     mesh = printed_mesh(made, PRINTER, on_top=False, correct=True)
-    points = (mesh.mesh.points + [0, 0, _level(mesh, made)]) / mesh.scale @ mesh.to_bed
+    points = mesh.in_part.points
     for bore, hole in zip(part.free_form.bores, made.holes, strict=True):
         axis, start = np.array(bore.axis), np.array(bore.start)
         along = (points - start) @ axis
@@ -132,13 +132,6 @@ def test_bores_of_a_spherical_link_are_corrected_and_the_rest_is_told(request):
         radius = (hole.target - OFF.hole) / 2
         assert near.sum() > 20
         assert off[near] == pytest.approx(radius, abs=2e-3)
-
-
-def _level(mesh, made) -> float:
-    """What was taken off the heights so that the mesh lies on the bed, mm."""
-    from mechwright_cad.exporters.mesh import part_mesh
-
-    return float((part_mesh(made.model).points @ mesh.to_bed.T)[:, 2].min())
 
 
 def test_what_is_not_corrected_of_a_free_form_is_told_by_name(request, tmp_path):

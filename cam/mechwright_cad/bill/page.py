@@ -59,9 +59,7 @@ class BillOfMaterials(Page):
             for match in seats.matches
             if seats.kind(match) == "bonded" or seats.may_lack_interference(match)
         ]
-        supplies = supplies_of(
-            plan.bodies, plan.joints, numbers, bonded=bonded, sample=plan.sample
-        )
+        supplies = supplies_of(plan.bodies, plan.joints, numbers, bonded=bonded, sample=plan.sample)
         supplies += [each for one in known for each in one.supplies(build, numbers)]
         lines = lines_of(
             build.parts,

@@ -33,18 +33,27 @@ class PrintedMesh:
         (3,) of the model by which the growth of lengths is taken off.
     foot
         By how much its first layer stands back on each side, mm.
+    lift
+        What was added to its heights, mm, so that it lies on the bed.
     """
 
     mesh: Mesh
     to_bed: Array
     scale: Array
     foot: float
+    lift: float
 
     @property
     def size(self) -> tuple[float, float, float]:
         """Along X, Y and Z, mm."""
         x, y, z = np.ptp(self.mesh.points, axis=0).tolist()
         return x, y, z
+
+    @property
+    def in_part(self) -> Mesh:
+        """The mesh in the part's coordinates, as large as it is on the bed after the print has grown."""
+        points: Array = ((self.mesh.points - (0.0, 0.0, self.lift)) / self.scale) @ self.to_bed
+        return Mesh(points, self.mesh.triangles)
 
     def moved(self, points: Array) -> Array:
         """Where points (n, 3) of the compensated model, part coordinates, lie on the mesh, in x and y."""
@@ -84,8 +93,9 @@ def printed_mesh(made: Compensated, printer: Printer, *, on_top: bool, correct: 
     off = (printer.deviation.scale_x, printer.deviation.scale_y) if correct else (1.0, 1.0)
     scale = np.array([1 / off[0], 1 / off[1], 1.0])
     points = (mesh.points @ turn.T) * scale
-    points[:, 2] -= points[:, 2].min()
-    return PrintedMesh(Mesh(points, mesh.triangles), turn, scale, foot)
+    lift = -float(points[:, 2].min())
+    points[:, 2] += lift
+    return PrintedMesh(Mesh(points, mesh.triangles), turn, scale, foot, lift)
 
 
 _OVER = np.diag([1.0, -1.0, -1.0])

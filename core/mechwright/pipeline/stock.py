@@ -1,4 +1,4 @@
-"""The contract of who knows what raw stock the parts of a build take: plates, filament, what goes in later."""
+"""The contract of who knows what raw stock the parts of a build take: plates, filament, supplies."""
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
