@@ -6,6 +6,7 @@ Each example is printed with the usual figures of printers on a square bed. Then
 
 - trimesh reads the plates, where it is installed: every object is closed and runs one way;
 - PrusaSlicer slices them without repair, where it is installed, and weighs the filament;
+- 50 places and more of each part's walls are looked for on its mesh;
 - the meshes of the print stand in their places with rods and bought parts, at five poses. No two overlap, but
   where something is pressed, reamed, tapped or screwed; each hole has the play that was asked about its pin.
 """
@@ -56,6 +57,13 @@ EXAMPLES = {
     "plate": "nema-17-plate",
 }
 """Family to its example."""
+COLUMNS = (
+    "example", "parts", "beds", "read back", "g", "sliced, g", "difference", "walls off, mm", "joints",
+    "play off, mm", "overlaps", "time",
+)  # fmt: skip
+"""Of the table."""
+PLACES = 50
+"""Of a part's walls, at least."""
 POSES = 5
 SPECK = 0.2
 """An overlap of less volume is none, mm³: chords of two walls that touch."""
@@ -74,6 +82,7 @@ class Printed:
     sliced: float | None
     joints: int
     play_error: float
+    walls_off: float
     overlaps: tuple[str, ...]
     seconds: float
 
@@ -85,7 +94,7 @@ class Printed:
         sliced = "" if self.sliced is None else f"{self.sliced:.1f}"
         return (
             f"{self.parts} | {self.beds} | {self.read} | {self.ours:.1f} | {sliced} | {mass} | "
-            f"{self.joints} | {self.play_error:.3f} | {apart}"
+            f"{self.walls_off:.4f} | {self.joints} | {self.play_error:.3f} | {apart}"
         )
 
 
@@ -99,6 +108,7 @@ def printed(example: Path, folder: Path, bed: float) -> Printed:
         raise RuntimeError(done.stderr.strip())
     with Build(design, host()) as build:
         joints, error, overlaps = assembled(build)
+        walls_off = off_model(build.made(PrintJob))
     rows = list(csv.DictReader(io.StringIO((out / "print-bill.csv").read_text())))
     plates = sorted(out.glob("plate-*.3mf"))
     return Printed(
@@ -109,6 +119,7 @@ def printed(example: Path, folder: Path, bed: float) -> Printed:
         sliced_mass(plates, folder, bed),
         joints,
         error,
+        walls_off,
         tuple(overlaps),
         time.perf_counter() - began,
     )
@@ -176,6 +187,24 @@ def sliced_mass(plates: list[Path], folder: Path, bed: float) -> float | None:
         found = re.search(r"total filament used \[g\] = ([\d.]+)", program.read_text())
         total += float(found[1]) if found else 0.0
     return total
+
+
+def off_model(job: PrintJob) -> float:
+    """How far the walls of the meshes are off their places at most, mm."""
+    worst = 0.0
+    for one in job.parts:
+        outline = one.made.model.outline
+        if outline is None:
+            continue
+        height = max(0.2 * one.part.thickness, 1.5 * job.printer.first)
+        height = one.part.thickness - height if one.on_top else height
+        rings = manifold_of(job.meshes[one.part.name].in_part).slice(height).to_polygons()
+        walls = shapely.union_all([shapely.LinearRing(ring) for ring in rings])
+        segments = [segment for loop in outline.loops for segment in loop.segments]
+        share = np.linspace(0.0, 1.0, max(3, -(-PLACES // len(segments))))
+        there = np.concatenate([segment.at(share) for segment in segments])
+        worst = max(worst, float(shapely.distance(walls, shapely.points(there)).max()))
+    return worst
 
 
 def assembled(build: Build) -> tuple[int, float, list[str]]:
@@ -275,9 +304,7 @@ def main() -> None:
     parser.add_argument("--bed", type=float, default=256.0, metavar="MM", help="side of the bed")
     given = parser.parse_args()
     root = Path(__file__).parents[1] / "examples"
-    print(
-        "example | parts | beds | read back | g | sliced, g | difference | joints | play off, mm | overlaps"
-    )
+    print(" | ".join(COLUMNS))
     for name in given.examples or EXAMPLES.values():
         with tempfile.TemporaryDirectory() as folder:
             try:

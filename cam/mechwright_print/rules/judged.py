@@ -11,6 +11,7 @@ from mechwright.contracts.details import Engraving
 from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
+from mechwright.errors import MechwrightError
 from mechwright.tolerances import exceeds
 from mechwright_print.job.print_job import JobPart, PrintJob
 from mechwright_print.printer.facts import BRIDGE, LINES
@@ -43,7 +44,7 @@ def _thin(design: Design, part: Part, thin: Narrow, printer: Printer) -> Finding
     able = next(
         (size for size in NOZZLES if LINES * size * printer.line_width / printer.nozzle <= thin.width), None
     )
-    larger, proposed = _larger(design, limit / thin.width)
+    larger, proposed = _larger(design, part, thin.width, printer)
     ways = [larger] if larger else []
     if able is not None:
         ways.append(f"set nozzle = {able:g} in the file of the printer, with that nozzle")
@@ -62,15 +63,28 @@ def _thin(design: Design, part: Part, thin: Narrow, printer: Printer) -> Finding
     )
 
 
-def _larger(design: Design, factor: float) -> tuple[str, tuple[Change, ...]]:
-    """The line by which the whole mechanism grows, where its family has one size for all."""
+def _larger(design: Design, part: Part, width: float, printer: Printer) -> tuple[str, tuple[Change, ...]]:
+    """The line by which the whole mechanism grows, where its family has one size for all, and that helps."""
+    limit = least_wall(printer)
     for key in design.family.size_keys:
         value = getattr(design.params, key, None)
         if isinstance(value, (int, float)) and not isinstance(value, bool):
-            made = math.ceil(value * factor * 10) / 10
-            change: Change = {f"parameters.{key}": made}
-            return f"set {key} = {made:g}", (change,)
+            for factor in (limit / width, (limit / width) ** 2):
+                made = math.ceil(value * factor * 10) / 10
+                change: Change = {f"parameters.{key}": made}
+                if _is_wide(design, change, part, limit):
+                    return f"set {key} = {made:g}", (change,)
+            break
     return "", ()
+
+
+def _is_wide(design: Design, change: Change, part: Part, limit: float) -> bool:
+    """Whether a part has no wall below a limit, mm, once the design is changed."""
+    try:
+        parts = design.changed(change, settle=False).parts()
+    except MechwrightError:
+        return False
+    return all(narrowest(one, limit, "wall") is None for one in parts if one.name == part.name)
 
 
 def gap_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
