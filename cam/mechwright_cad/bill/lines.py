@@ -129,7 +129,7 @@ def _body(
         "" if bought is None else bought.designation,
         "" if bought is None else bought.standard,
         first.material if fed is None else fed.material,
-        "" if fed is not None else grade_of(first) if bought is None else order.grade,
+        fed.material if fed is not None else grade_of(first) if bought is None else order.grade,
         order.finish,
         finished(first) if bought is None else "",
         mass,

@@ -106,7 +106,9 @@ def built_up(parts: Sequence[Part], feedstock: Sequence[Feedstock]) -> Iterator[
         mass = sum(one.masses[part.name] * count(part) for part in those)
         names = tuple(part.name for part in those)
         designation, order = f"filament {one.material}", f"{one.order}, {math.ceil(mass)} g"
-        yield Piece(names, 1, one.material, designation, "", "", order, "", mass, one.note, unit="as needed")
+        yield Piece(
+            names, 1, one.material, designation, one.material, "", order, "", mass, one.note, unit="as needed"
+        )
 
 
 def count(part: Part) -> int:
