@@ -67,7 +67,7 @@ PLACES = 50
 POSES = 5
 SPECK = 0.2
 """An overlap of less volume is none, mm³: chords of two walls that touch."""
-FINISHED = {"press", "ream", "insert", "tap", "screw"}
+FINISHED = {"press", "ream", "bush", "insert", "tap", "screw"}
 """Holes that something is driven or screwed into."""
 
 

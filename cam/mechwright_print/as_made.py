@@ -90,7 +90,7 @@ def printed_tolerances(
         }
     )
     holes = [hole for one in job.parts for hole in one.made.holes if hole.fit is not None]
-    loose = [hole.target - hole.fit.size for hole in holes if hole.fit is not None and hole.kind != "ream"]
+    loose = [hole.target - hole.fit.size for hole in holes if hole.fit is not None and not hole.is_finished]
     if reamed:
         loose = []
     scatter = printer.scatter("hole") if loose else 0.0

@@ -32,7 +32,7 @@ class Printing(Process):
         job = build.made(PrintJob)
         one = job.of(part)
         lost = []
-        fits = [hole.name for hole in one.made.holes if hole.fit is not None and hole.kind != "ream"]
+        fits = [hole.name for hole in one.made.holes if hole.fit is not None and not hole.is_finished]
         if fits:
             lost.append(f"the fits of {', '.join(fits)}: ±{job.printer.scatter('hole'):.2f} mm")
         if threads := [hole.name for hole in one.made.holes if hole.kind in {"insert", "screw", "tap"}]:

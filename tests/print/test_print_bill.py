@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+import re
 import shutil
 
 import pytest
@@ -56,6 +57,24 @@ def test_only_what_the_printer_makes_is_of_filament(tmp_path, request):
     (tool,) = [line for line in lines if line["order"] == "ream 5 H7"]
     assert (tool["unit"], tool["kind"]) == ("tool", "supply")
     assert tool["note"] == f"for item {by_name['crank']['item']}, after printing"
+
+
+def test_gears_get_a_bush(tmp_path, request):
+    holes = {"gear-1.bore": "bush", "gear-2.bore": "bush"}
+    lines, _, _ = bill(tmp_path, request, "spur-gears", 'process = "print"\n', holes=holes)
+    bushes = {line["order"]: int(line["qty"]) for line in lines if line["order"].startswith("ISO 2795")}
+    sizes = [re.search(r"J (\d+) x (\d+) x (\d+)", order).groups() for order in bushes]
+    assert len(sizes) == len(bushes) > 0
+    assert sum(bushes.values()) == 2
+    with Build(tmp_path / "design.toml", host()) as build:
+        job = build.made(PrintJob)
+        for one in job.parts:
+            (hole,) = one.made.holes
+            assert hole.bush.bore == hole.fit.size
+            assert hole.target == pytest.approx(hole.bush.outside + 2 * job.printer.side_clearance("snug"))
+            assert hole.bush.length <= one.part.thickness
+            (bore,) = [feature for feature in one.made.model.features if feature.name == "bore"]
+            assert bore.diameter == pytest.approx(hole.target - job.printer.hole_off(hole.target))
 
 
 def test_inserts_are_counted(tmp_path, request):

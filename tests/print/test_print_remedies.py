@@ -86,6 +86,11 @@ CASES = {
         of("spur-gears"),
         {"print": {"greatest_play": 0.1}, "printer": MEASURED},
     ),
+    "no room for a bush": (
+        "print.bush",
+        lambda request: text_of(1.5).replace("bore = 8", "bore = 16"),
+        {"print": {"holes": {"gear-1.bore": "bush"}}},
+    ),
     "flanks without room": ("print.backlash", of("spur-gears"), {"printer": MEASURED}),
     "pressed parts": ("print.press", of("cam-slide"), {"print": {"walls": 4}}),
     "no room for an insert": ("print.insert", of("nema-17-plate"), {"print": {"walls": 4}}),

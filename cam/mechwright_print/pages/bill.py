@@ -31,12 +31,14 @@ class Fitting:
 
 
 def fittings(job: PrintJob) -> list[Fitting]:
-    """Inserts, screws with nuts, then tools, each kind once."""
+    """Inserts, bushes, screws with nuts, then tools, each kind once."""
     found: dict[tuple[str, str], list[tuple[str, str, int]]] = {}
     for one in job.parts:
         for hole in one.made.holes:
             if hole.insert is not None:
                 key = ("insert", hole.insert.name)
+            elif hole.bush is not None:
+                key = ("bush", hole.bush.bought.designation)
             elif hole.kind == "screw":
                 key = ("screw", "screw through, with nut")
             elif hole.operation:
@@ -57,7 +59,7 @@ def fittings(job: PrintJob) -> list[Fitting]:
     ]
 
 
-_ORDER = ("insert", "screw", "tool")
+_ORDER = ("insert", "bush", "screw", "tool")
 """Of the kinds on the bill."""
 
 

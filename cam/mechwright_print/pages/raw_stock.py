@@ -31,7 +31,7 @@ class PrintStock(RawStock):
         return [Feedstock(filament, job.masses, f"{filament} filament", f"printed, {laid_down(job)}")]
 
     def supplies(self, build: Build, items: Mapping[str, int]) -> Sequence[Supply]:
-        """Inserts, screws with nuts, reamers and taps of what is done after printing."""
+        """Inserts, bushes, screws with nuts, reamers and taps of what is done after printing."""
         from mechwright_print.pages.bill import fittings
 
         job = _job(build)

@@ -89,7 +89,7 @@ def hole_row(hole: PrintedHole, job: PrintJob) -> HoleRow:
     """The row of a hole; the shaft is as large as the basic size of its fit."""
     correct = job.settings.compensate == "model"
     model = hole.target - (job.printer.hole_off(hole.target) if correct else 0.0)
-    if hole.fit is None or hole.kind == "ream":
+    if hole.fit is None or hole.is_finished:
         return HoleRow(hole, model, None)
     scatter, middle = job.printer.scatter("hole"), hole.target - hole.fit.size
     return HoleRow(hole, model, (middle - scatter, middle + scatter))

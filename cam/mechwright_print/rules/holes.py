@@ -23,9 +23,9 @@ RUNNING: tuple[JointKind, ...] = ("sliding", "loose", "turning")
 
 
 def fitted_holes(job: PrintJob) -> list[PrintedHole]:
-    """The holes with a fit that are not reamed."""
+    """The holes with a fit that neither a reamer nor a bush makes."""
     return [
-        hole for one in job.parts for hole in one.made.holes if hole.fit is not None and hole.kind != "ream"
+        hole for one in job.parts for hole in one.made.holes if hole.fit is not None and not hole.is_finished
     ]
 
 
@@ -105,6 +105,28 @@ def _able(job: PrintJob, scatter: float) -> list[str]:
     limit = math.inf if job.settings.greatest_play is None else job.settings.greatest_play
     plays = {kind: 2 * job.printer.side_clearance(kind) for kind in RUNNING}
     return [*(kind for kind, play in plays.items() if scatter < play <= limit - scatter), "ream"]
+
+
+def bush_rule(job: PrintJob) -> Iterator[Finding]:
+    """Plastic stays around bushes."""
+    for one in job.parts:
+        bores = {bore.name: bore for bore in one.part.features if isinstance(bore, Bore)}
+        for hole in one.made.holes:
+            if hole.bush is None or hole.name not in bores:
+                continue
+            wall = wall_beside(one.part, bores[hole.name]) - hole.target / 2
+            if wall < WALL:
+                yield Finding.warning(
+                    "print.bush",
+                    "print.holes",
+                    f"{_key(hole)}: {wall:.2f} mm of plastic stay beside a bush of {hole.bush.outside:g} mm, "
+                    f"and it takes {WALL:g} mm",
+                    wall,
+                    WALL,
+                    "mm",
+                    _line(job, [hole], "ream"),
+                    proposed=(_change(job, [hole], "ream"),),
+                )
 
 
 def insert_rule(job: PrintJob) -> Iterator[Finding]:
