@@ -70,7 +70,7 @@ def printed_holes(part: Part, settings: PrintSettings, printer: Printer) -> list
     bores = round_holes(part)
     found = [_hole(part, bore, settings, printer) for bore in bores]
     for bore, printed in zip(bores, found, strict=True):
-        _check_room(part, bore, printed)
+        _check_room(part, bore, printed, settings)
     for key in settings.holes:
         name, _, hole = key.partition(".")
         if name == part.name and hole not in [bore.name for bore in bores if bore.fit is not None]:
@@ -81,17 +81,15 @@ def printed_holes(part: Part, settings: PrintSettings, printer: Printer) -> list
     return found
 
 
-def _check_room(part: Part, bore: "Bore | FormBore", hole: PrintedHole) -> None:
+def _check_room(part: Part, bore: "Bore | FormBore", hole: PrintedHole, settings: PrintSettings) -> None:
     """Refuse a hole that breaks through a wall because of what it is printed for."""
     if not isinstance(bore, Bore) or hole.target <= bore.diameter:
         return
     room = 2 * wall_beside(part, bore)
     if hole.target >= room > bore.diameter:
-        way = (
-            'threads = "screw"'
-            if hole.insert is not None
-            else f'holes = {{ "{part.name}.{bore.name}" = "ream" }}'
-        )
+        holes = {**settings.holes, f"{part.name}.{bore.name}": "ream"}
+        listed = ", ".join(f'"{key}" = "{kind}"' for key, kind in holes.items())
+        way = 'threads = "screw"' if hole.insert is not None else f"holes = {{ {listed} }}"
         raise DesignError(
             f"print.holes: {part.name}.{bore.name} is printed {hole.target:g} mm wide as {hole.kind}, and "
             f"breaks through a wall at {room:.2f} mm; set {way} in [print]"
