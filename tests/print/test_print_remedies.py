@@ -88,7 +88,7 @@ CASES = {
     ),
     "no room for a bush": (
         "print.bush",
-        lambda request: text_of(1.25).replace("bore = 3", "bore = 12"),
+        lambda request: text_of(1.2).replace("bore = 3", "bore = 12\nthickness = 10"),
         {"print": {"holes": {"gear-1.bore": "bush"}}},
     ),
     "flanks without room": ("print.backlash", of("spur-gears"), {"printer": MEASURED}),
