@@ -18,7 +18,7 @@ from mechwright_print.compensation.plates import compensated, is_convex
 from mechwright_print.job.print_job import JobPart, PrintJob
 from mechwright_print.meshes.printed_mesh import printed_mesh
 from mechwright_print.printer.settings import Deviation, Printer
-from mechwright_print.rules.judged import form_rule
+from mechwright_print.rules.judged import form_rule, level_bores
 from mechwright_print.settings import PrintSettings
 
 OFF = Deviation(hole=-0.3, slot=-0.14, pin=0.1, wall=0.16, foot=0.12, scale_x=1.004, scale_y=0.997)
@@ -145,3 +145,10 @@ def test_what_is_not_corrected_of_a_free_form_is_told_by_name(request, tmp_path)
         assert bool(found) == told
         if told:
             assert found[0].message.startswith("crank is of free form: its bores a0, a are corrected")
+            # one axis stands upright on the bed where the crank lies on its boss, the other leans by its arc
+            axes = {bore.name: np.array(bore.axis) for bore in part.free_form.bores}
+            up = job.mesh_of(one).to_bed[2]
+            lean = {
+                name: math.degrees(math.acos(min(1.0, abs(float(axis @ up))))) for name, axis in axes.items()
+            }
+            assert level_bores(job, one) == [name for name, angle in lean.items() if angle > 45]

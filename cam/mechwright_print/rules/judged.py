@@ -14,7 +14,7 @@ from mechwright.designs.design import Design
 from mechwright.errors import MechwrightError
 from mechwright.tolerances import exceeds
 from mechwright_print.job.print_job import JobPart, PrintJob
-from mechwright_print.printer.facts import BRIDGE, LINES
+from mechwright_print.printer.facts import BRIDGE, LINES, STEEP
 from mechwright_print.printer.settings import Printer
 from mechwright_print.rules.faces import hanging_faces
 from mechwright_print.rules.walls import Narrow, narrowest
@@ -210,14 +210,31 @@ def form_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
     if part.outline is None and job.settings.compensate == "model":
         bores = [] if part.free_form is None else [bore.name for bore in part.free_form.bores]
         said = f"its bores {', '.join(bores)} are corrected" if bores else "it has no round holes"
+        level = level_bores(job, one)
+        drilled = (
+            f"; bores that lean by more than {STEEP:g}° sag, drill them: {', '.join(level)}" if level else ""
+        )
         off = job.printer.deviation.wall / 2
         yield Finding.note(
             "print.free-form",
             f"{part.name} is of free form: {said}, its other faces stay as drawn and come out by "
-            f"{off:+.3f} mm on each side",
+            f"{off:+.3f} mm on each side{drilled}",
             off,
             "mm",
         )
+
+
+def level_bores(job: PrintJob, one: JobPart) -> list[str]:
+    """Names of the bores of a body whose axes lean by more than 45 degrees as it lies on the bed."""
+    if one.part.free_form is None or not one.part.free_form.bores:
+        return []
+    upright = job.mesh_of(one).to_bed[2]
+    least = math.cos(math.radians(STEEP))
+    return [
+        bore.name
+        for bore in one.part.free_form.bores
+        if abs(sum(a * b for a, b in zip(bore.axis, upright.tolist(), strict=True))) < least
+    ]
 
 
 RULES = (
