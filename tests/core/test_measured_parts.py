@@ -170,6 +170,34 @@ def test_each_joint_has_the_play_of_its_own_pair(build):
     assert {name: play - seen["pin-a"] for name, play in seen.items()} == pytest.approx(grown)
 
 
+def test_bores_of_spherical_links_are_measured_and_paired(build):
+    host = open_host()
+    links = Build(load(build.path.parent / "spherical-crank-rocker.toml", host), host)
+    coupler = links.parts["coupler"]
+    names = [one.name for one in inspected(coupler)]
+    assert names == [bore.name for bore in coupler.free_form.bores]
+    readings = [
+        Reading(part, "1", one, one.target + (0.03 if (part.name, one.name) == ("coupler", "a") else 0.0))
+        for part in links.parts
+        for one in inspected(part)
+        if one.walls
+    ]
+    pairs = pairings(links, readings)
+    plays = measured_tolerances(links, pairs, []).plays
+    assert {"a0", "a", "c", "b0"} <= set(plays)
+    assert plays["a"][1] - plays["c"][1] == pytest.approx(0.03)
+    before, after = (
+        [one.half for one in as_measured(links, some, [])] for some in (pairings(links, _plain(links)), pairs)
+    )
+    assert all(more > less for less, more in zip(before, after, strict=True))
+
+
+def _plain(build: Build) -> list[Reading]:
+    return [
+        Reading(part, "1", one, one.target) for part in build.parts for one in inspected(part) if one.walls
+    ]
+
+
 class Seen(Tolerances):
     """Keeps the joint of each pin that a family asks for."""
 

@@ -154,6 +154,21 @@ def test_a_bush_without_room_or_size_is_named(tmp_path):
         findings_of(build(tmp_path, odd, print={"holes": {"gear-1.bore": "bush"}}))
 
 
+@pytest.mark.parametrize(
+    ("printer", "said"),
+    [
+        ({"bed": {"x": 35, "y": 35}}, "print.bed"),
+        ({"nozzle": 1.2, "layer": 0.4, "measured": True}, "print.thin-wall"),
+    ],
+)
+def test_what_cannot_be_printed_writes_nothing(tmp_path, command_line, printer, said):
+    asked = gears(tmp_path, 1.0, printer=printer)
+    code, _, err = command_line("print", asked.path, "-o", tmp_path / "out")
+    assert code == 1
+    assert f"[{said}]" in err
+    assert not (tmp_path / "out").exists()
+
+
 def part(*corners):
     return Part("part", Outline(Loop.polygon(corners)), 2.0, "pom")
 
