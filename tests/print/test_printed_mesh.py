@@ -5,14 +5,14 @@ import math
 import numpy as np
 import pytest
 import shapely
-from printed_meshes import CHORD, section
+from printed_meshes import CHORD, is_closed, section
 
 from mechwright.contracts.details import Chamfer, Thread
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_print.compensation.plates import compensated
-from mechwright_print.meshes.printed_mesh import PrintedMesh, printed_mesh, volume
+from mechwright_print.meshes.printed_mesh import printed_mesh, volume
 from mechwright_print.printer.settings import Deviation, Printer
 from mechwright_print.settings import PrintSettings
 
@@ -43,13 +43,6 @@ def plate(*, recess: bool = False, chamfer: bool = False, thread: bool = False) 
     outline = Outline(rim, (*inner, slot.reversed()))
     machined = (*features, Profile("outside", rim, "outside", 0.0, 6.0))
     return Part("plate", outline, 6.0, "pom", machined=machined, details=tuple(details))
-
-
-def is_closed(mesh: PrintedMesh) -> bool:
-    """Whether every edge belongs to two triangles that run it either way."""
-    edges = np.concatenate([mesh.mesh.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    forth, counts = np.unique(edges, axis=0, return_counts=True)
-    return bool((counts == 1).all() and np.array_equal(forth, np.unique(edges[:, ::-1], axis=0)))
 
 
 def printed_of(shape: shapely.Geometry, printer: Printer) -> shapely.Geometry:

@@ -68,7 +68,7 @@ def manifold_of(mesh: Mesh) -> manifold3d.Manifold:
     """A closed mesh for set operations."""
     return manifold3d.Manifold(
         manifold3d.Mesh64(
-            np.ascontiguousarray(mesh.points, float), np.ascontiguousarray(mesh.triangles, np.uint64)
+            np.array(mesh.points, float, order="C"), np.array(mesh.triangles, np.uint64, order="C")
         )
     )
 
