@@ -15,7 +15,7 @@ class Milling(Process):
         """Nothing: what no cutter makes is told by its own rules."""
         return None
 
-    def correction(self, off: float, walls: str) -> str:
+    def correction(self, off: float, walls: str, part: Part, build: Build) -> str:  # noqa: ARG002
         """The wear of the cutter in the control, a radius."""
         of = "" if walls == "all" else f" of the cutters of {walls} walls"
         return f"set the wear of D{of} {-off:+.4f} mm from where it is, as a radius"

@@ -30,6 +30,33 @@ class Cut(Process):
 
         return list(loses(part, cut_settings(build.design).kind(self.name, part.material)))
 
+    by_material = True
+
+    def correction(self, off: float, walls: str, part: Part, build: Build) -> str:
+        """The kerf: what stays on a wall is half of what it is narrower than it was taken for."""
+        from mechwright_cut.cutting import Cutting
+
+        cutting = build.made(Cutting)
+        kind = cutting.settings.kind(self.name, part.material)
+        kerf = cutting.kerf(kind, part)
+        if kerf is None or kerf.width - 2 * off <= 0:
+            return super().correction(off, walls, part, build)
+        wide = f"{kerf.width - 2 * off:.4f}"
+        which = "" if walls == "all" else f", as {walls} walls have it"
+        if cutting.settings.kerf is not None:
+            return f"set kerf = {wide} in [cut]{which} (now {kerf.width:g})"
+        rows = [
+            f'{{ process = "{one.process}", material = "{one.material}", thickness = {one.thickness:g}, '
+            f"kerf = {one.kerf:g} }}"
+            for one in cutting.settings.kerfs
+            if (one.process, one.material, one.thickness) != (kind.name, part.material, part.thickness)
+        ]
+        rows.append(
+            f'{{ process = "{kind.name}", material = "{part.material}", thickness = {part.thickness:g}, '
+            f"kerf = {wide} }}"
+        )
+        return f"set kerfs = [{', '.join(rows)}] in [cut]{which} (now {kerf.width:g})"
+
     def seconds(self, part: Part, build: Build) -> float | None:
         """The way around outside and openings at the feed, as often as it is run, and the pierces."""
         from mechwright_cut.settings.cut_table import cut_settings
@@ -69,6 +96,19 @@ class Wire(Cut):
     name = "wire"
     title = "wire erosion"
 
+    def correction(self, off: float, walls: str, part: Part, build: Build) -> str:
+        """The registers of the wire, by which its middle stands off the wall."""
+        from mechwright_cut.cutting import Cutting
+
+        cutting = build.made(Cutting)
+        kerf = cutting.kerf(cutting.settings.kind(self.name, part.material), part)
+        if kerf is None:
+            return super().correction(off, walls, part, build)
+        before = cutting.settings.registers(kerf.width)
+        after = ", ".join(f"{one - off:.4f}" for one in before)
+        which = "" if walls == "all" else f", as {walls} walls have it"
+        return f"set offsets = [{after}] in [cut]{which} (now {', '.join(f'{one:g}' for one in before)})"
+
     def seconds(self, part: Part, build: Build) -> float | None:  # noqa: ARG002
         """The generator's conditions decide, and nobody here knows them."""
         return None
@@ -79,6 +119,12 @@ class Service(Cut):
 
     name = "service"
     title = "a cutting service"
+
+    def correction(self, off: float, walls: str, part: Part, build: Build) -> str:  # noqa: ARG002
+        """Services allow for their kerf, or have one that is known: it is theirs to correct."""
+        which = "" if walls == "all" else f" on {walls} walls"
+        more = "left" if off > 0 else "cut off"
+        return f"write to the service that {abs(off):.4f} mm too much is {more}{which}"
 
     def seconds(self, part: Part, build: Build) -> float | None:  # noqa: ARG002
         """Nobody here knows."""

@@ -7,6 +7,7 @@ around its bushing and its pin in holes that are printed.
 
 from dataclasses import dataclass
 
+from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.contracts.tolerances import Contributor, Zone
 from mechwright.pipeline import Build
@@ -33,9 +34,11 @@ class PrintedTolerances(Tolerances):
     play: float = 0.0
     scatter: float = 0.0
 
-    def pin(self, name: str, diameter: float, own: float | str, *, member: bool = False) -> Contributor:
+    def pin(
+        self, name: str, diameter: float, own: float | str, *, member: bool = False, joint: str = ""
+    ) -> Contributor:
         """A joint with the play of the printed holes around it."""
-        found = super().pin(name, diameter, own, member=member)
+        found = super().pin(name, diameter, own, member=member, joint=joint)
         if not self.scatter:
             return found
         more = Zone(self.play - self.scatter, self.play + self.scatter, self.settings.distribution)
@@ -48,17 +51,31 @@ class AsPrinted:
     """The outputs of a build whose parts are printed; none where its family has no analysis."""
 
     def __init__(self, build: Build) -> None:
-        tolerances = printed_tolerances(build, build.made(PrintJob))
-        self.outputs: list[ComparedOutput] = compared(build, tolerances, _SET)
+        self.outputs: list[ComparedOutput] = outputs_of(build, build.made(PrintJob))
 
 
 _SET = ("length", "centre", "eccentricity", "gouge", "leftover")
 """Keys of ``[tolerances]`` that follow from the printer."""
 
 
-def printed_tolerances(build: Build, job: PrintJob) -> PrintedTolerances:
-    """What the printer's scatter makes of lengths, walls and joints."""
-    size = job.printer.scatter("wall")
+def outputs_of(
+    build: Build,
+    job: PrintJob,
+    *,
+    params: Parameters | None = None,
+    spread: float | None = None,
+    reamed: bool = False,
+) -> list[ComparedOutput]:
+    """The outputs with other parameters, a printer of another spread, mm, or with all holes reamed."""
+    return compared(build, printed_tolerances(build, job, spread=spread, reamed=reamed), _SET, params)
+
+
+def printed_tolerances(
+    build: Build, job: PrintJob, *, spread: float | None = None, reamed: bool = False
+) -> PrintedTolerances:
+    """What a printer's scatter makes of lengths, walls and joints."""
+    printer = job.printer if spread is None else job.printer.model_copy(update={"spread": spread})
+    size = printer.scatter("wall")
     asked = build.design.table(TolerancesTable)
     middle = round(MIDDLE * size, 6)
     settings = asked.settings.model_copy(
@@ -73,6 +90,8 @@ def printed_tolerances(build: Build, job: PrintJob) -> PrintedTolerances:
         }
     )
     holes = [hole for one in job.parts for hole in one.made.holes if hole.fit is not None]
-    loose = [hole.target - hole.fit.size for hole in holes if hole.fit is not None and hole.kind != "ream"]
-    scatter = job.printer.scatter("hole") if loose else 0.0
+    loose = [hole.target - hole.fit.size for hole in holes if hole.fit is not None and not hole.is_finished]
+    if reamed:
+        loose = []
+    scatter = printer.scatter("hole") if loose else 0.0
     return PrintedTolerances(settings, {}, max([0.0, *loose]), scatter)

@@ -32,21 +32,28 @@ class Printing(Process):
         job = build.made(PrintJob)
         one = job.of(part)
         lost = []
-        fits = [hole.name for hole in one.made.holes if hole.fit is not None and hole.kind != "ream"]
+        fits = [hole.name for hole in one.made.holes if hole.fit is not None and not hole.is_finished]
         if fits:
             lost.append(f"the fits of {', '.join(fits)}: ±{job.printer.scatter('hole'):.2f} mm")
         if threads := [hole.name for hole in one.made.holes if hole.kind in {"insert", "screw", "tap"}]:
             lost.append(f"the threads of {', '.join(threads)}")
         return lost
 
-    def correction(self, off: float, walls: str) -> str:
-        """Deviations in the file of the printer."""
+    def correction(self, off: float, walls: str, part: Part, build: Build) -> str:
+        """Deviations in the file of the printer: of holes, and of outlines."""
+        from mechwright_print.compensation.holes import round_holes
+        from mechwright_print.job.print_job import PrintJob
+
+        printer = build.made(PrintJob).printer
         said = []
         if walls != "outside":
-            said.append(f"add {-2 * off:+.4f} to deviation.hole")
+            sizes = [bore.diameter for bore in round_holes(part)] or [0.0]
+            hole = printer.hole_off(sum(sizes) / len(sizes))
+            said.append(f"hole = {hole - 2 * off:.4f} (now {hole:g})")
         if walls != "inside":
-            said.append(f"add {2 * off:+.4f} to deviation.wall")
-        return " and ".join(said)
+            wall = printer.deviation.wall
+            said.append(f"wall = {wall + 2 * off:.4f} (now {wall:g})")
+        return f"set {' and '.join(said)} in [deviation] of the file of the printer"
 
     def seconds(self, part: Part, build: Build) -> float | None:
         """Filament by its volume and the printer's flow."""

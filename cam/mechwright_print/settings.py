@@ -12,8 +12,8 @@ from mechwright.units import Millimetres, Ratio
 PartName = Annotated[str, Field(pattern=f"^{NAME_PATTERN}$")]
 PRINT = "print"
 """The name of the process, of its table and of its command."""
-HoleKind = Literal["press", "snug", "sliding", "loose", "turning", "ream", "drawn"]
-"""How a hole with a fit is printed: with the clearance of a joint, for a reamer, or in its drawn size."""
+HoleKind = Literal["press", "snug", "sliding", "loose", "turning", "ream", "bush", "drawn"]
+"""How a hole with a fit is printed: with a joint's clearance, for a reamer, for a bush, or as drawn."""
 
 
 class PrintSettings(Parameters):

@@ -72,7 +72,7 @@ if TYPE_CHECKING:
     )
     from mechwright.geometry import Arc, BSpline, Line, Loop, Outline, Segment, circle
     from mechwright.geometry.segments import Point
-    from mechwright.pipeline import Blank, Build, FileName, Inspection, Page, RawStock, Wanted
+    from mechwright.pipeline import Blank, Build, Feedstock, FileName, Inspection, Page, RawStock, Wanted
     from mechwright.pipeline.process import Process
     from mechwright.plugins.hookspecs import hookimpl
     from mechwright.plugins.host import Host, host
@@ -85,7 +85,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "mechwright.arrays": "Array",
-    "mechwright.pipeline": "Blank Build FileName Inspection Page RawStock Wanted",
+    "mechwright.pipeline": "Blank Build Feedstock FileName Inspection Page RawStock Wanted",
     "mechwright.pipeline.process": "Process",
     "mechwright.cli.command": "Command",
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
@@ -152,6 +152,7 @@ __all__ += [
     "Command",
     "Exporter",
     "Family",
+    "Feedstock",
     "FileName",
     "Inspection",
     "Page",

@@ -10,13 +10,14 @@ import pytest
 
 from mechwright.cli.hosting import open_host
 from mechwright.contracts.inspected import inspected
+from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.designs.design import load
 from mechwright.errors import DesignError
 from mechwright.pipeline import Build
 from mechwright.pipeline.measured.corrections import corrections, mean_offset
 from mechwright.pipeline.measured.pairing import least_greatest, pairings
 from mechwright.pipeline.measured.readings import Reading, empty_table, read_readings
-from mechwright.pipeline.measured.running import as_measured
+from mechwright.pipeline.measured.running import as_measured, measured_tolerances
 
 BATCHES = 100
 NOISE = 0.002
@@ -140,11 +141,96 @@ def test_the_play_of_measured_pairs_is_found_and_the_mechanism_runs_with_it(buil
         assert moving
         for pair in moving:
             assert pair.plays[0, 0] == pytest.approx(pair.as_chosen)
-        sizes = {f"{one.part.name}.{one.dimension.name}": one.dimension.nominal for one in readings}
-        half.append([one.half for one in as_measured(four, pairs, found, [sizes[p.hole] for p in pairs])])
+        half.append([one.half for one in as_measured(four, pairs, found)])
     assert half[0]
     assert all(after > before for before, after in zip(*half, strict=True))
     del rng
+
+
+def test_each_joint_has_the_play_of_its_own_pair(build):
+    """Pins of one diameter are told apart by the joints that they make."""
+    host = open_host()
+    four = Build(load(build.path.parent / "four-bar-double-rocker.toml", host), host)
+    grown = {"pin-a": 0.0, "pin-b": 0.02, "pin-b0": 0.04, "shaft": 0.06}
+    readings = [
+        Reading(part, "1", one, one.target - grown.get(part.name, 0.0))
+        for part in four.parts
+        for one in inspected(part)
+        if one.walls
+    ]
+    pairs = pairings(four, readings)
+    joints = {pair.shaft.partition(".")[0]: pair.joints for pair in pairs if pair.moves}
+    assert joints == {"pin-a": ("A",), "pin-b": ("B",), "pin-b0": ("B0",), "shaft": ("A0",)}
+    plays = measured_tolerances(four, pairs, []).plays
+    least = plays["A"][0]
+    for joint, pin in (("A", "pin-a"), ("B", "pin-b"), ("B0", "pin-b0"), ("A0", "shaft")):
+        assert plays[joint] == pytest.approx((least + grown[pin],) * 2)
+    model = four.design.family.tolerances(four.design.params, measured_tolerances(four, pairs, []))
+    seen = {one.name: one.upper for one in model.contributors if one.name in grown}
+    assert {name: play - seen["pin-a"] for name, play in seen.items()} == pytest.approx(grown)
+
+
+def test_bores_of_spherical_links_are_measured_and_paired(build):
+    host = open_host()
+    links = Build(load(build.path.parent / "spherical-crank-rocker.toml", host), host)
+    coupler = links.parts["coupler"]
+    names = [one.name for one in inspected(coupler)]
+    assert names == [bore.name for bore in coupler.free_form.bores]
+    readings = [
+        Reading(part, "1", one, one.target + (0.03 if (part.name, one.name) == ("coupler", "a") else 0.0))
+        for part in links.parts
+        for one in inspected(part)
+        if one.walls
+    ]
+    pairs = pairings(links, readings)
+    plays = measured_tolerances(links, pairs, []).plays
+    assert {"a0", "a", "c", "b0"} <= set(plays)
+    assert plays["a"][1] - plays["c"][1] == pytest.approx(0.03)
+    before, after = (
+        [one.half for one in as_measured(links, some, [])] for some in (pairings(links, _plain(links)), pairs)
+    )
+    assert all(more > less for less, more in zip(before, after, strict=True))
+
+
+def _plain(build: Build) -> list[Reading]:
+    return [
+        Reading(part, "1", one, one.target) for part in build.parts for one in inspected(part) if one.walls
+    ]
+
+
+class Seen(Tolerances):
+    """Keeps the joint of each pin that a family asks for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        object.__setattr__(self, "joints", [])
+
+    def pin(self, name, diameter, own, *, member=False, joint=""):
+        self.joints.append(joint or name)
+        return super().pin(name, diameter, own, member=member, joint=joint)
+
+
+@pytest.mark.parametrize(
+    "example",
+    [
+        "four-bar-double-rocker",
+        "five-bar-published",
+        "slider-crank-quick-return",
+        "geneva-straight",
+        "spherical-crank-rocker",
+        "spherical-five-bar-refined",
+        "linkages/jansen",
+        "linkages/crank-shaper",
+    ],
+)
+def test_every_pin_of_an_analysis_is_a_joint_of_the_motion(build, example):
+    design = load(build.path.parent / f"{example}.toml", open_host())
+    seen = Seen()
+    design.family.tolerances(design.params, seen)
+    joints = design.solve(2).joints
+    assert seen.joints
+    assert set(seen.joints) <= set(joints)
+    assert {joints[name].kind for name in seen.joints} <= {"revolute", "fixed"}
 
 
 def filled(build: Build, change) -> str:

@@ -51,14 +51,6 @@ def test_the_process_tells_what_is_lost_and_how_long_it_takes(tmp_path, request)
     assert Printing().seconds(quick.parts["crank"], quick) * 2 == times[1]
 
 
-def test_corrections_of_a_printer_are_keys_of_its_file():
-    assert (
-        Printing().correction(0.01, "all")
-        == "add -0.0200 to deviation.hole and add +0.0200 to deviation.wall"
-    )
-    assert Printing().correction(-0.02, "inside") == "add +0.0400 to deviation.hole"
-
-
 def test_printing_asks_nothing_of_milling(tmp_path, request, command_line):
     """A design whose mill cannot make it is printed all the same."""
     content = tomlkit.parse((request.config.rootpath / "examples/geneva-straight.toml").read_text())

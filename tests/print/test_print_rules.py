@@ -1,6 +1,7 @@
 """What is told of a design that a printer cannot make as drawn, and lines that help."""
 
 import math
+from pathlib import Path
 
 import pytest
 import tomlkit
@@ -8,6 +9,7 @@ import tomlkit
 from mechwright.cli.hosting import open_host
 from mechwright.contracts.part import Part
 from mechwright.designs.design import load
+from mechwright.errors import DesignError
 from mechwright.geometry import Loop, Outline
 from mechwright.pipeline import Build
 from mechwright_print.rules.inspection import Printable, findings_of
@@ -139,6 +141,32 @@ def test_a_hole_or_part_that_is_not_there_is_named(tmp_path, command_line):
         assert code != 0
         assert said in err
         assert not (tmp_path / "out").exists()
+
+
+def test_a_bush_without_room_or_size_is_named(tmp_path):
+    geneva = Path("examples/geneva-straight.toml").read_text()
+    with pytest.raises(
+        DesignError, match=r'crank.pin-1 is printed .* set holes = { "crank.pin-1" = "ream" }'
+    ):
+        findings_of(build(tmp_path, geneva, print={"holes": {"crank.pin-1": "bush"}}))
+    odd = text_of(2.0).replace("bore = 8", "bore = 8.7")
+    with pytest.raises(DesignError, match=r"no bush has a bore of 8.7 mm; one of: .*; set it to ream"):
+        findings_of(build(tmp_path, odd, print={"holes": {"gear-1.bore": "bush"}}))
+
+
+@pytest.mark.parametrize(
+    ("printer", "said"),
+    [
+        ({"bed": {"x": 35, "y": 35}}, "print.bed"),
+        ({"nozzle": 1.2, "layer": 0.4, "measured": True}, "print.thin-wall"),
+    ],
+)
+def test_what_cannot_be_printed_writes_nothing(tmp_path, command_line, printer, said):
+    asked = gears(tmp_path, 1.0, printer=printer)
+    code, _, err = command_line("print", asked.path, "-o", tmp_path / "out")
+    assert code == 1
+    assert f"[{said}]" in err
+    assert not (tmp_path / "out").exists()
 
 
 def part(*corners):

@@ -5,22 +5,20 @@ import math
 import numpy as np
 import pytest
 import shapely
+from printed_meshes import CHORD, is_closed, section
 
 from mechwright.contracts.details import Chamfer, Thread
 from mechwright.contracts.fits import hole_fit
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
 from mechwright.geometry import Loop, Outline, circle
 from mechwright_print.compensation.plates import compensated
-from mechwright_print.meshes.first_layer import chamfer_width
-from mechwright_print.meshes.printed_mesh import PrintedMesh, printed_mesh, volume
+from mechwright_print.meshes.printed_mesh import printed_mesh, volume
 from mechwright_print.printer.settings import Deviation, Printer
 from mechwright_print.settings import PrintSettings
 
 OFF = Deviation(hole=-0.3, slot=-0.14, pin=0.1, wall=0.16, foot=0.12, scale_x=1.004, scale_y=0.997)
 PRINTER = Printer(deviation=OFF)
 PLACES = 50
-CHORD = 0.012
-"""A mesh of the CAD kernel is so near to its faces, mm, with the rounding of triangles."""
 
 
 def plate(*, recess: bool = False, chamfer: bool = False, thread: bool = False) -> Part:
@@ -45,26 +43,6 @@ def plate(*, recess: bool = False, chamfer: bool = False, thread: bool = False) 
     outline = Outline(rim, (*inner, slot.reversed()))
     machined = (*features, Profile("outside", rim, "outside", 0.0, 6.0))
     return Part("plate", outline, 6.0, "pom", machined=machined, details=tuple(details))
-
-
-def is_closed(mesh: PrintedMesh) -> bool:
-    """Whether every edge belongs to two triangles that run it either way."""
-    edges = np.concatenate([mesh.mesh.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    forth, counts = np.unique(edges, axis=0, return_counts=True)
-    return bool((counts == 1).all() and np.array_equal(forth, np.unique(edges[:, ::-1], axis=0)))
-
-
-def section(mesh: PrintedMesh, z: float) -> shapely.Geometry:
-    """The cross-section of a mesh at a height."""
-    import manifold3d
-
-    body = manifold3d.Manifold(manifold3d.Mesh64(mesh.mesh.points, mesh.mesh.triangles.astype(np.uint64)))
-    rings = [shapely.Polygon(ring) for ring in body.slice(z).to_polygons()]
-    rings.sort(key=lambda one: -one.area)
-    whole = shapely.Polygon()
-    for ring in rings:
-        whole = shapely.symmetric_difference(whole, ring)
-    return whole
 
 
 def printed_of(shape: shapely.Geometry, printer: Printer) -> shapely.Geometry:
@@ -118,8 +96,7 @@ def test_the_first_layer_stands_back_by_the_foot():
     part = plate(recess=True)
     made = compensated(part, PrintSettings(fits="drawn"), PRINTER)
     mesh = printed_mesh(made, PRINTER, on_top=False, correct=True)
-    width = chamfer_width(OFF.foot, PRINTER.first)
-    assert mesh.chamfer == width == pytest.approx(0.22)
+    assert mesh.foot == OFF.foot
     up, low = section(mesh, 3.0), section(mesh, PRINTER.first / 2)
     for one, other in ((up.exterior, low.exterior),):
         assert (np.ptp(one.coords, axis=0) - np.ptp(other.coords, axis=0)) / 2 == pytest.approx(
@@ -150,7 +127,7 @@ def test_the_slicer_corrects_where_it_is_asked_to():
     made = compensated(plate(), settings, PRINTER)
     mesh = printed_mesh(made, PRINTER, on_top=False, correct=False)
     assert np.ptp(mesh.mesh.points, axis=0) == pytest.approx([60, 30, 6])
-    assert mesh.chamfer == 0
+    assert mesh.foot == 0
 
 
 @pytest.mark.parametrize(

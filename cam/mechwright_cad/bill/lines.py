@@ -17,11 +17,11 @@ from dataclasses import dataclass, fields
 from types import MappingProxyType
 
 from mechwright.contracts.part import Part
-from mechwright.pipeline import Blank
+from mechwright.pipeline import Blank, Feedstock
 from mechwright.standards.ordering import Order, order_of
 from mechwright.standards.supply import Supply
 from mechwright_cad.bill.items import FIRST, items
-from mechwright_cad.bill.stock import count, finished, grade_of, pieces
+from mechwright_cad.bill.stock import Piece, built_up, count, finished, grade_of, pieces
 
 ABSENT = "not in the assembly that is shown"
 """Note of a part that is made and stands in no place: the other size of a link, a flat pattern."""
@@ -63,6 +63,7 @@ def lines_of(
     notes: Mapping[str, str] = MappingProxyType({}),
     supplies: Sequence[Supply] = (),
     electrics: Sequence[Supply] = (),
+    feedstock: Sequence[Feedstock] = (),
 ) -> list[Line]:
     """The whole bill.
 
@@ -82,13 +83,15 @@ def lines_of(
         What there is to say of a part besides, by its name: the torque of a screw.
     supplies, electrics
         What is no body.
+    feedstock
+        What parts are built up from; they have its material, and the mass that it says.
     """
     numbered = items(parts, order)
     numbers = {part.name: number for number, those in numbered.items() for part in those}
     made = [part for those in numbered.values() for part in those if part.bought is None]
     return [
-        *(_body(number, those, masses, drawings, notes) for number, those in numbered.items()),
-        *_stock(made, blanks, numbers),
+        *(_body(number, those, masses, drawings, notes, feedstock) for number, those in numbered.items()),
+        *_stock([*pieces(made, blanks, feedstock), *built_up(made, feedstock)], numbers),
         *(_no_body("supply", number, one) for number, one in enumerate(supplies, FIRST["supply"])),
         *(_no_body("electrical", number, one) for number, one in enumerate(electrics, FIRST["electrical"])),
     ]
@@ -100,14 +103,19 @@ def _body(
     masses: Mapping[str, float],
     drawings: Mapping[str, Sequence[str]],
     more: Mapping[str, str],
+    feedstock: Sequence[Feedstock],
 ) -> Line:
     """One line for equal parts, whatever they are called."""
     first = those[0]
+    fed = next((one for one in feedstock if first.name in one.masses), None)
+    mass = masses[first.name] if fed is None else fed.masses[first.name]
     qty = sum(count(part) for part in those)
     bought = first.bought
     notes = [bought.note] if bought is not None and bought.note else []
     notes += dict.fromkeys(more[part.name] for part in those if part.name in more)
-    if first.free_form is not None:
+    if fed is not None:
+        notes.append(fed.note)
+    elif first.free_form is not None:
         notes.append(f"process: {first.free_form.process}")
     if not all(part.instances for part in those):
         notes.append(ABSENT)
@@ -120,12 +128,12 @@ def _body(
         "made" if bought is None else "bought",
         "" if bought is None else bought.designation,
         "" if bought is None else bought.standard,
-        first.material,
-        grade_of(first) if bought is None else order.grade,
+        first.material if fed is None else fed.material,
+        fed.material if fed is not None else grade_of(first) if bought is None else order.grade,
         order.finish,
         finished(first) if bought is None else "",
-        masses[first.name],
-        masses[first.name] * qty,
+        mass,
+        mass * qty,
         order.text,
         order.inch,
         f"{first.name}.step",
@@ -134,12 +142,12 @@ def _body(
     )
 
 
-def _stock(parts: Sequence[Part], blanks: Sequence[Blank], numbers: Mapping[str, int]) -> list[Line]:
+def _stock(found: Sequence[Piece], numbers: Mapping[str, int]) -> list[Line]:
     return [
         Line(
             number,
             piece.count,
-            "pcs",
+            piece.unit,
             f"stock for {', '.join(piece.parts)}",
             "stock",
             piece.designation,
@@ -152,7 +160,7 @@ def _stock(parts: Sequence[Part], blanks: Sequence[Blank], numbers: Mapping[str,
             inch=piece.inch,
             note=f"for item {_listed(numbers, piece.parts)}; {piece.note}",
         )
-        for number, piece in enumerate(pieces(parts, blanks), FIRST["stock"])
+        for number, piece in enumerate(found, FIRST["stock"])
     ]
 
 

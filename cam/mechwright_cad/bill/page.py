@@ -47,14 +47,11 @@ class BillOfMaterials(Page):
 
         if not build.parts:
             return {}
-        command = build.wanted.command
-        blanks = [
-            blank
-            for one in build.host.all(RawStock)
-            if command in one.commands
-            for blank in one.blanks(build)
-        ]
         plan, order = build.made(plan_of), order_of(build)
+        numbers = numbers_of(build.parts, order)
+        known = [one for one in build.host.all(RawStock) if build.wanted.command in one.commands]
+        blanks = [blank for one in known for blank in one.blanks(build)]
+        feedstock = [each for one in known for each in one.feedstock(build)]
         masses = build.made_as_wanted(Solids).masses()
         seats = plan.order.seats
         bonded = [
@@ -62,9 +59,8 @@ class BillOfMaterials(Page):
             for match in seats.matches
             if seats.kind(match) == "bonded" or seats.may_lack_interference(match)
         ]
-        supplies = supplies_of(
-            plan.bodies, plan.joints, numbers_of(build.parts, order), bonded=bonded, sample=plan.sample
-        )
+        supplies = supplies_of(plan.bodies, plan.joints, numbers, bonded=bonded, sample=plan.sample)
+        supplies += [each for one in known for each in one.supplies(build, numbers)]
         lines = lines_of(
             build.parts,
             masses,
@@ -74,6 +70,7 @@ class BillOfMaterials(Page):
             plan.torques,
             supplies,
             build.made(electrics_for),
+            feedstock,
         )
         return {CSV: bill_csv(lines), HTML: bill_html(build.design.name, lines)}
 

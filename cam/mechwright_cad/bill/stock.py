@@ -1,4 +1,4 @@
-"""Raw stock of made parts: plates and round bars as dealers have them, and what they weigh."""
+"""Raw stock of made parts: plates and round bars as dealers have them, filament, and what they weigh."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -8,7 +8,7 @@ from mechwright.contracts.materials import material
 from mechwright.contracts.part import Part
 from mechwright.contracts.turned import Step, Turned
 from mechwright.errors import DesignError
-from mechwright.pipeline import Blank
+from mechwright.pipeline import Blank, Feedstock
 from mechwright.standards.stock import (
     CLEAN_UP,
     bar_for,
@@ -45,6 +45,8 @@ class Piece:
         How it is ordered, and what is sold in the US.
     mass
         Of one, g.
+    unit
+        Of what ``count`` counts.
     """
 
     parts: tuple[str, ...]
@@ -57,6 +59,7 @@ class Piece:
     inch: str
     mass: float
     note: str
+    unit: str = "pcs"
 
 
 def finished(part: Part) -> str:
@@ -77,19 +80,35 @@ def grade_of(part: Part) -> str:
     return material(part.material).grades.plate if known else ""
 
 
-def pieces(parts: Sequence[Part], blanks: Sequence[Blank]) -> Iterator[Piece]:
+def pieces(
+    parts: Sequence[Part], blanks: Sequence[Blank], feedstock: Sequence[Feedstock] = ()
+) -> Iterator[Piece]:
     """What is sawn off: plates as a process has them, then the rest of the parts in their order.
 
     A part that is neither turned nor a plate has no stock of its own: it may be printed or cast.
     """
     for blank in blanks:
         yield _plate(blank.parts, blank.count, blank.material, blank.size, BY_SHEET)
-    done = {name for blank in blanks for name in blank.parts}
+    done = {name for blank in blanks for name in blank.parts} | {
+        name for one in feedstock for name in one.masses
+    }
     for part in parts:
         if part.name not in done:
             piece = _piece(part)
             if piece is not None:
                 yield piece
+
+
+def built_up(parts: Sequence[Part], feedstock: Sequence[Feedstock]) -> Iterator[Piece]:
+    """What is used up by mass for all copies of the parts that are built up."""
+    for one in feedstock:
+        those = [part for part in parts if part.name in one.masses]
+        mass = sum(one.masses[part.name] * count(part) for part in those)
+        names = tuple(part.name for part in those)
+        designation, order = f"filament {one.material}", f"{one.order}, {math.ceil(mass)} g"
+        yield Piece(
+            names, 1, one.material, designation, one.material, "", order, "", mass, one.note, unit="as needed"
+        )
 
 
 def count(part: Part) -> int:

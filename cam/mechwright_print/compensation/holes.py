@@ -14,10 +14,12 @@ from dataclasses import dataclass, replace
 
 from mechwright.contracts.details import Chamfer, Detail, Thread
 from mechwright.contracts.fits import Fit, hole_fit
-from mechwright.contracts.holes import exchanged
+from mechwright.contracts.free_form import FormBore
+from mechwright.contracts.holes import exchanged, wall_beside
 from mechwright.contracts.part import Bore, Part
 from mechwright.errors import DesignError
 from mechwright.geometry import Loop, circle
+from mechwright.standards.bushes import Bush, bush_for
 from mechwright.standards.screws import screw_size
 from mechwright.tolerances import TOLERANCES
 from mechwright_print.compensation.offsets import rounded_by
@@ -42,6 +44,12 @@ class PrintedHole:
     fit: Fit | None = None
     operation: str = ""
     insert: Insert | None = None
+    bush: Bush | None = None
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether its fit comes from a reamer or a bush, and no printer's scatter is in it."""
+        return self.kind in {"ream", "bush"}
 
 
 def joint_kind(fit: Fit) -> JointKind:
@@ -59,8 +67,10 @@ def joint_kind(fit: Fit) -> JointKind:
 
 def printed_holes(part: Part, settings: PrintSettings, printer: Printer) -> list[PrintedHole]:
     """The round holes of a part; raises DesignError for one that is named and is not there."""
-    bores = [feature for feature in part.features if isinstance(feature, Bore)]
+    bores = round_holes(part)
     found = [_hole(part, bore, settings, printer) for bore in bores]
+    for bore, printed in zip(bores, found, strict=True):
+        _check_room(part, bore, printed, settings)
     for key in settings.holes:
         name, _, hole = key.partition(".")
         if name == part.name and hole not in [bore.name for bore in bores if bore.fit is not None]:
@@ -71,9 +81,31 @@ def printed_holes(part: Part, settings: PrintSettings, printer: Printer) -> list
     return found
 
 
-def _hole(part: Part, bore: Bore, settings: PrintSettings, printer: Printer) -> PrintedHole:
-    thread = thread_in(part, bore)
-    if thread is not None:
+def _check_room(part: Part, bore: "Bore | FormBore", hole: PrintedHole, settings: PrintSettings) -> None:
+    """Refuse a hole that breaks through a wall because of what it is printed for."""
+    if not isinstance(bore, Bore) or hole.target <= bore.diameter:
+        return
+    room = 2 * wall_beside(part, bore)
+    if hole.target >= room > bore.diameter:
+        holes = {**settings.holes, f"{part.name}.{bore.name}": "ream"}
+        listed = ", ".join(f'"{key}" = "{kind}"' for key, kind in holes.items())
+        way = 'threads = "screw"' if hole.insert is not None else f"holes = {{ {listed} }}"
+        raise DesignError(
+            f"print.holes: {part.name}.{bore.name} is printed {hole.target:g} mm wide as {hole.kind}, and "
+            f"breaks through a wall at {room:.2f} mm; set {way} in [print]"
+        )
+
+
+def round_holes(part: Part) -> "list[Bore | FormBore]":
+    """The round holes of a plate, or of a body of free form."""
+    if part.free_form is not None:
+        return list(part.free_form.bores)
+    return [feature for feature in part.features if isinstance(feature, Bore)]
+
+
+def _hole(part: Part, bore: "Bore | FormBore", settings: PrintSettings, printer: Printer) -> PrintedHole:
+    thread = thread_in(part, bore) if isinstance(bore, Bore) else None
+    if thread is not None and isinstance(bore, Bore):
         return _threaded(part, bore, thread, settings)
     if bore.fit is None:
         return PrintedHole(part.name, bore.name, "", bore.diameter, bore.diameter)
@@ -87,6 +119,15 @@ def _hole(part: Part, bore: Bore, settings: PrintSettings, printer: Printer) -> 
         kind = settings.fits
     if kind == "drawn":
         return PrintedHole(part.name, bore.name, kind, bore.diameter, bore.diameter, bore.fit)
+    if kind == "bush":
+        deep = bore.length if isinstance(bore, FormBore) else min(bore.depth, part.thickness)
+        try:
+            bush = bush_for(bore.fit.size, deep)
+        except DesignError as error:
+            raise DesignError(f"print.holes.{part.name}.{bore.name}: {error}; set it to ream") from error
+        target = bush.outside + 2 * printer.side_clearance("snug")
+        operation = f"glue in {bush.bought.designation}"
+        return PrintedHole(part.name, bore.name, kind, bore.diameter, target, bore.fit, operation, bush=bush)
     if kind == "ream":
         target = bore.fit.size - settings.allowance
         operation = f"ream {bore.fit.short}"
@@ -127,6 +168,11 @@ def _threaded(part: Part, bore: Bore, thread: Thread, settings: PrintSettings) -
 def with_targets(part: Part, holes: list[PrintedHole]) -> Part:
     """The part with its round holes as wide as their targets, without threads and fits."""
     by_name = {hole.name: hole for hole in holes}
+    if part.free_form is not None:
+        bores = tuple(
+            replace(one, diameter=by_name[one.name].target, fit=None) for one in part.free_form.bores
+        )
+        return replace(part, free_form=replace(part.free_form, bores=bores))
     for bore in [feature for feature in part.features if isinstance(feature, Bore)]:
         hole = by_name[bore.name]
         if hole.target != bore.diameter:

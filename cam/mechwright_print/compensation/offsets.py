@@ -1,6 +1,7 @@
 """Loops moved by a distance: the exact parallel where there is one, else a polygon within the tolerance."""
 
 import math
+from collections.abc import Sequence
 
 import shapely
 
@@ -45,6 +46,20 @@ def _polygon(loop: Loop, more: float) -> Loop:
     ring = shapely.simplify(pieces[0].exterior, TOLERANCES.flatten)
     found = Loop.polygon([(x, y) for x, y in ring.coords[:-1]])
     return found if (found.area > 0) == outside else found.reversed()
+
+
+def thickened_each(loop: Loop, more: Sequence[float]) -> Loop:
+    """The loop with ``more`` mm of material on the wall of each segment; material on its left.
+
+    Segments that go on in one direction take the same. Raises GeometryError as :func:`thickened` does.
+
+    >>> square = Loop.polygon([(0, 0), (4, 0), (4, 4), (0, 4)])
+    >>> round(thickened_each(square, [0.5, 0.0, -0.5, 0.0]).area, 6)
+    16.0
+    """
+    if max(more) - min(more) <= TOLERANCES.closure:
+        return thickened(loop, more[0])
+    return Parallel(loop, -1, tuple(more)).at(1.0)
 
 
 def material_left(loop: Loop, *, opening: bool) -> Loop:

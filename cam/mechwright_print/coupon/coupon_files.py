@@ -55,9 +55,10 @@ def sheet_html(printer: Printer, parts: list[Part], beds: int) -> str:
             printer=printer,
             beds=beds,
             pictures=[_picture(part) for part in parts],
-            rows=ROWS,
-            trials=[(trial_name(gap), gap) for gap in GAPS],
-            trial_how=TRIAL_HOW,
+            rows=[
+                *((row.name, f"{row.nominal:g}", row.how) for row in ROWS),
+                *((trial_name(gap), f"{gap:.2f}", TRIAL_HOW) for gap in GAPS),
+            ],
             words=WORDS,
             up=UP,
             table=TABLE,

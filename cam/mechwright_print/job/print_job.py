@@ -52,6 +52,14 @@ def is_asked(design: Design, parts: Sequence[Part]) -> bool:
     return is_printed(design) or bool(plates_by(design, parts, PRINT))
 
 
+def gives_parts(design: Design, parts: Sequence[Part]) -> bool:
+    """Whether a design gives parts to the printer, so that a build prints them: plates, or bodies alone."""
+    said: ProcessSettings = design.table(ProcessTable)
+    return bool(plates_by(design, parts, PRINT)) or (
+        said.default == PRINT and any(part.kind == "solid" for part in parts)
+    )
+
+
 def _check_names(design: Design, settings: PrintSettings, parts: Sequence[Part]) -> None:
     by_name = {part.name: part for part in parts}
     able = ", ".join(part.name for part in parts if part.kind in PRINTABLE) or "none"
@@ -89,6 +97,7 @@ class PrintJob:
         self.printer: Printer = printing.printer
         self.design = build.design
         self._parts = build.parts
+        self._meshes: dict[str, PrintedMesh] = {}
 
     @cached_property
     def parts(self) -> list[JobPart]:
@@ -110,16 +119,19 @@ class PrintJob:
         one = self.of(part)
         from mechwright_print.job.filament import filament_mass
 
-        mesh = self.meshes.get(part.name) or self.mesh_of(one)
+        mesh = self.mesh_of(one)
         grams = filament_mass(one.made.model, mesh, self.settings, self.printer)
         return grams / self.printer.grams_per_mm3 / self.printer.flow
 
     def mesh_of(self, one: JobPart) -> "PrintedMesh":
-        """The mesh of a part; raises GeometryError where it cannot be made."""
+        """The mesh of a part, made once; raises GeometryError where it cannot be made."""
         from mechwright_print.meshes.printed_mesh import printed_mesh
 
-        correct = self.settings.compensate == "model"
-        return printed_mesh(one.made, self.printer, on_top=one.on_top, correct=correct)
+        name = one.part.name
+        if name not in self._meshes:
+            correct = self.settings.compensate == "model"
+            self._meshes[name] = printed_mesh(one.made, self.printer, on_top=one.on_top, correct=correct)
+        return self._meshes[name]
 
     @cached_property
     def meshes(self) -> "dict[str, PrintedMesh]":

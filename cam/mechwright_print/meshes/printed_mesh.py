@@ -6,18 +6,13 @@ Imports the CAD kernel.
 import math
 from dataclasses import dataclass
 
-import manifold3d
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.details import Chamfer
-from mechwright.contracts.part import Part
-from mechwright.contracts.sections import blind
-from mechwright.errors import GeometryError
 from mechwright_cad.exporters.mesh import part_mesh
 from mechwright_cad.solids.tessellate import Mesh
 from mechwright_print.compensation.plates import Compensated
-from mechwright_print.meshes.first_layer import broken_top, chamfer_width, from_underside, zone_height
+from mechwright_print.meshes.stacked import stacked
 from mechwright_print.printer.settings import Printer
 
 SAME_NORMAL = 1e-3
@@ -36,20 +31,29 @@ class PrintedMesh:
         (3, 3) turn from the part's coordinates to those of the bed.
     scale
         (3,) of the model by which the growth of lengths is taken off.
-    chamfer
-        Width of the chamfer on the bed side, mm; 0 for none.
+    foot
+        By how much its first layer stands back on each side, mm.
+    lift
+        What was added to its heights, mm, so that it lies on the bed.
     """
 
     mesh: Mesh
     to_bed: Array
     scale: Array
-    chamfer: float
+    foot: float
+    lift: float
 
     @property
     def size(self) -> tuple[float, float, float]:
         """Along X, Y and Z, mm."""
         x, y, z = np.ptp(self.mesh.points, axis=0).tolist()
         return x, y, z
+
+    @property
+    def in_part(self) -> Mesh:
+        """The mesh in the part's coordinates, as large as it is on the bed after the print has grown."""
+        points: Array = ((self.mesh.points - (0.0, 0.0, self.lift)) / self.scale) @ self.to_bed
+        return Mesh(points, self.mesh.triangles)
 
     def moved(self, points: Array) -> Array:
         """Where points (n, 3) of the compensated model, part coordinates, lie on the mesh, in x and y."""
@@ -77,59 +81,25 @@ def printed_mesh(made: Compensated, printer: Printer, *, on_top: bool, correct: 
         The solid cannot be made; the message names the part.
     """
     model = made.model
-    width = chamfer_width(printer.deviation.foot, printer.first) if correct else 0.0
+    foot = printer.deviation.foot if correct else 0.0
     if model.outline is None:
-        mesh, turn, width = part_mesh(model), _largest_face_down(part_mesh(model)), 0.0
+        mesh, foot = part_mesh(model), 0.0
+        turn = _largest_face_down(mesh)
         if on_top:
             turn = _OVER @ turn
     else:
-        mesh = _plate(model, width, on_top=on_top)
+        mesh = stacked(model, foot, printer.first, on_top=on_top)
         turn = _OVER if on_top else np.eye(3)
     off = (printer.deviation.scale_x, printer.deviation.scale_y) if correct else (1.0, 1.0)
     scale = np.array([1 / off[0], 1 / off[1], 1.0])
     points = (mesh.points @ turn.T) * scale
-    points[:, 2] -= points[:, 2].min()
-    return PrintedMesh(Mesh(points, mesh.triangles), turn, scale, width)
+    lift = -float(points[:, 2].min())
+    points[:, 2] += lift
+    return PrintedMesh(Mesh(points, mesh.triangles), turn, scale, foot, lift)
 
 
 _OVER = np.diag([1.0, -1.0, -1.0])
 """Turned over about X."""
-
-
-def _plate(model: Part, width: float, *, on_top: bool) -> Mesh:
-    """A plate in its own coordinates, the edges on its bed side broken."""
-    if width == 0:
-        return part_mesh(model)
-    over = model if on_top else from_underside(model)
-    broken = part_mesh(broken_top(over, width))
-    if on_top and not any(isinstance(one, Chamfer) for one in model.details):
-        return broken
-    if not on_top:
-        broken = Mesh(broken.points @ _OVER.T + (0.0, 0.0, model.thickness), broken.triangles)
-        if not blind(model) and not model.details:
-            return broken
-    height = zone_height(model, width)
-    cut = model.thickness - height if on_top else height
-    up = (0.0, 0.0, 1.0)
-    down = (0.0, 0.0, -1.0)
-    bed, rest = (up, down) if on_top else (down, up)
-    joined = _manifold(broken).trim_by_plane(bed, bed[2] * cut) + _manifold(part_mesh(model)).trim_by_plane(
-        rest, rest[2] * cut
-    )
-    if joined.status() != manifold3d.Error.NoError or joined.is_empty():
-        raise GeometryError(f"part {model.name}: the bed side cannot be joined to the rest of its mesh")
-    return _mesh(joined)
-
-
-def _manifold(mesh: Mesh) -> manifold3d.Manifold:
-    return manifold3d.Manifold(
-        manifold3d.Mesh64(np.asarray(mesh.points, float), np.asarray(mesh.triangles, np.uint64))
-    )
-
-
-def _mesh(body: manifold3d.Manifold) -> Mesh:
-    found = body.to_mesh64()
-    return Mesh(np.asarray(found.vert_properties[:, :3], float), np.asarray(found.tri_verts, np.int64))
 
 
 def _largest_face_down(mesh: Mesh) -> Array:

@@ -1,6 +1,5 @@
 """What a print takes: filament by mass, metal rods, inserts, screws, reamers and taps."""
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,6 +18,57 @@ class BillLine:
     note: str = ""
 
 
+@dataclass(frozen=True)
+class Fitting:
+    """What a printed hole takes later: its kind, how it is ordered, how many, and in which parts."""
+
+    kind: str
+    name: str
+    qty: int
+    unit: str
+    parts: tuple[str, ...]
+    where: tuple[str, ...]
+
+
+def fittings(job: PrintJob) -> list[Fitting]:
+    """Inserts, bushes, screws with nuts, then tools, each kind once."""
+    found: dict[tuple[str, str], list[tuple[str, str, int]]] = {}
+    for one in job.parts:
+        for hole in one.made.holes:
+            if hole.insert is not None:
+                key = ("insert", hole.insert.name)
+            elif hole.bush is not None:
+                key = ("bush", hole.bush.bought.designation)
+            elif hole.kind == "screw":
+                key = ("screw", "screw through, with nut")
+            elif hole.operation:
+                key = ("tool", hole.operation)
+            else:
+                continue
+            found.setdefault(key, []).append((hole.part, hole.name, copies(one.part)))
+    return [
+        Fitting(
+            kind,
+            name,
+            1 if kind == "tool" else sum(count for _, _, count in where),
+            "tool" if kind == "tool" else "pcs",
+            tuple(dict.fromkeys(part for part, _, _ in where)),
+            tuple(f"{part} {hole}" for part, hole, _ in where),
+        )
+        for (kind, name), where in sorted(found.items(), key=lambda one: _ORDER.index(one[0][0]))
+    ]
+
+
+_ORDER = ("insert", "bush", "screw", "tool")
+"""Of the kinds on the bill."""
+
+
+def laid_down(job: PrintJob) -> str:
+    """How the filament is laid down, in a few words."""
+    settings = job.settings
+    return f"{settings.walls} lines, {settings.skins} full layers, infill {100 * settings.infill:g} %"
+
+
 def bill_lines(job: PrintJob) -> list[BillLine]:
     """All lines: filament, rods, inserts, tools for what is done after printing, and bought parts."""
     total = sum(job.masses[one.part.name] * copies(one.part) for one in job.parts)
@@ -28,8 +78,7 @@ def bill_lines(job: PrintJob) -> list[BillLine]:
             1,
             job.printer.material.title,
             total,
-            f"{job.settings.walls} lines, {job.settings.skins} full layers, "
-            f"infill {100 * job.settings.infill:g} %",
+            laid_down(job),
         )
     ]
     lines += [
@@ -53,20 +102,7 @@ def bill_lines(job: PrintJob) -> list[BillLine]:
                 f"{part.material} rod ⌀{part.turned.greatest:g} x {part.turned.length:g} mm",
             )
         )
-    inserts: Counter[str] = Counter()
-    screws: Counter[str] = Counter()
-    tools: dict[str, list[str]] = {}
-    for one in job.parts:
-        for hole in one.made.holes:
-            if hole.insert is not None:
-                inserts[hole.insert.name] += copies(one.part)
-            elif hole.kind == "screw":
-                screws["screw through, with nut"] += copies(one.part)
-            elif hole.operation:
-                tools.setdefault(hole.operation, []).append(f"{hole.part} {hole.name}")
-    lines += [BillLine("insert", count, name) for name, count in inserts.items()]
-    lines += [BillLine("screw", count, name) for name, count in screws.items()]
-    lines += [BillLine("tool", 1, name, 0.0, ", ".join(where)) for name, where in tools.items()]
+    lines += [BillLine(one.kind, one.qty, one.name, 0.0, ", ".join(one.where)) for one in fittings(job)]
     lines += [
         BillLine("bought", len(part.instances), part.bought.designation or part.name)
         for part in job.bought

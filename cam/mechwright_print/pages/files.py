@@ -65,9 +65,9 @@ class PrintFiles(Page):
 
 def _wanted(build: Build, wanted: Wanted) -> bool:
     """Whether a command writes printed parts: ``print`` does, others where the design gives plates to it."""
-    from mechwright.pipeline.process import plates_by
+    from mechwright_print.job.print_job import gives_parts
 
-    return wanted.command == PRINT or bool(plates_by(build.design, build.parts, PRINT))
+    return wanted.command == PRINT or gives_parts(build.design, build.parts)
 
 
 def plate_file(job: "PrintJob", number: int) -> bytes:

@@ -10,16 +10,18 @@ import numpy as np
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.output.templates import templates
 from mechwright.pipeline.tolerances.units import percent, shown, shown_unit
+from mechwright_cad.solids.tessellate import Mesh
 from mechwright_print.as_made import AsPrinted
 from mechwright_print.compensation.holes import PrintedHole, operations
 from mechwright_print.job.print_job import PrintJob, copies
 from mechwright_print.meshes.laid_out import Placed
+from mechwright_print.meshes.stacked import manifold_of
 from mechwright_print.pages.bill import BillLine
 from mechwright_print.printer.settings import Printer
 from mechwright_print.rules.faces import overhanging_area
 
-LABEL = 60.0
-"""Boxes narrower than this, mm, show their number alone."""
+SHADOW = 0.05
+"""Bodies are shown from above within this, mm."""
 
 
 @dataclass(frozen=True)
@@ -48,10 +50,11 @@ def sheet_html(job: PrintJob, found: Sequence[Finding], bill: Sequence[BillLine]
             "copies": copies(one.part),
             "size": job.meshes[one.part.name].size,
             "on_top": one.on_top,
-            "chamfer": job.meshes[one.part.name].chamfer,
+            "foot": job.meshes[one.part.name].foot,
             "mass": job.masses[one.part.name],
             "minutes": job.seconds(one.part) / 60,
             "exact": one.part.outline is not None,
+            "bores": bool(one.made.holes),
             "overhang": overhanging_area(job.meshes[one.part.name]) if one.part.outline is None else 0.0,
         }
         for one in job.parts
@@ -86,7 +89,7 @@ def hole_row(hole: PrintedHole, job: PrintJob) -> HoleRow:
     """The row of a hole; the shaft is as large as the basic size of its fit."""
     correct = job.settings.compensate == "model"
     model = hole.target - (job.printer.hole_off(hole.target) if correct else 0.0)
-    if hole.fit is None or hole.kind == "ream":
+    if hole.fit is None or hole.is_finished:
         return HoleRow(hole, model, None)
     scatter, middle = job.printer.scatter("hole"), hole.target - hole.fit.size
     return HoleRow(hole, model, (middle - scatter, middle + scatter))
@@ -115,8 +118,9 @@ def bed_picture(job: PrintJob, number: int) -> BedPicture:
         mesh = job.meshes[one.name]
         outline = models[one.name].outline
         if outline is None:
-            x0, y0, x1, y1 = one.box
-            outlines.append(_path(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]), job))
+            there = Mesh(mesh.mesh.points @ one.transform[:3] + one.transform[3], mesh.mesh.triangles)
+            rings = manifold_of(there).project().simplify(SHADOW).to_polygons()
+            outlines.append("".join(_path(np.asarray(ring), job) for ring in rings))
             continue
         drawn = ""
         for loop in outline.loops:

@@ -3,6 +3,7 @@
 One finding tells of all holes with one fault, and its change is for all of them.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 
 from mechwright.contracts.finding import Change, Finding
@@ -10,20 +11,21 @@ from mechwright.contracts.holes import wall_beside
 from mechwright.contracts.part import Bore
 from mechwright_print.compensation.holes import PrintedHole
 from mechwright_print.job.print_job import PrintJob
+from mechwright_print.printer.facts import JointKind
 from mechwright_print.printer.inserts import WALL
 
 MEASURE = ", or measure the printer: mechwright print --coupon -o coupon"
 """What is said besides of a printer whose figures are published ones."""
 NAMED = 4
 """Holes that a line names."""
-RUNNING = frozenset({"sliding", "turning", "loose"})
-"""Joints in which a shaft has to move."""
+RUNNING: tuple[JointKind, ...] = ("sliding", "loose", "turning")
+"""Joints in which a shaft has to move, from tight to free."""
 
 
 def fitted_holes(job: PrintJob) -> list[PrintedHole]:
-    """The holes with a fit that are not reamed."""
+    """The holes with a fit that neither a reamer nor a bush makes."""
     return [
-        hole for one in job.parts for hole in one.made.holes if hole.fit is not None and hole.kind != "ream"
+        hole for one in job.parts for hole in one.made.holes if hole.fit is not None and not hole.is_finished
     ]
 
 
@@ -54,6 +56,8 @@ def fit_rule(job: PrintJob) -> Iterator[Finding]:
     limit = job.settings.greatest_play
     if limit is not None and (wide := [hole for hole in holes if middle_play(hole) + scatter > limit]):
         most = max(middle_play(hole) for hole in wide) + scatter
+        moving = all(hole.kind in RUNNING for hole in wide)
+        kinds = _able(job, scatter) if moving else ["ream"]
         yield Finding.error(
             "print.play",
             "print.greatest_play",
@@ -61,8 +65,8 @@ def fit_rule(job: PrintJob) -> Iterator[Finding]:
             most,
             limit,
             "mm",
-            _line(job, wide, "ream"),
-            proposed=(_change(job, wide, "ream"),),
+            _line(job, wide, kinds[0]),
+            proposed=tuple(_change(job, wide, kind) for kind in kinds),
         )
     if pressed := [hole for hole in holes if hole.kind == "press"]:
         yield Finding.warning(
@@ -81,6 +85,7 @@ def fit_rule(job: PrintJob) -> Iterator[Finding]:
 def _jams(job: PrintJob, tight: Sequence[PrintedHole], scatter: float) -> Finding:
     """An error of a measured printer; of another one the coupon may tell better."""
     least = min(middle_play(hole) for hole in tight)
+    kinds = _able(job, scatter)
     kind = Finding.error if job.printer.measured else Finding.warning
     return kind(
         "print.jam",
@@ -90,9 +95,38 @@ def _jams(job: PrintJob, tight: Sequence[PrintedHole], scatter: float) -> Findin
         least,
         scatter,
         "mm",
-        _line(job, tight, "ream") + ("" if job.printer.measured else MEASURE),
-        proposed=(_change(job, tight, "ream"),),
+        _line(job, tight, kinds[0]) + ("" if job.printer.measured else MEASURE),
+        proposed=tuple(_change(job, tight, kind) for kind in kinds),
     )
+
+
+def _able(job: PrintJob, scatter: float) -> list[str]:
+    """What is printed so that a shaft moves and does not rattle more than is asked; a reamed hole does."""
+    limit = math.inf if job.settings.greatest_play is None else job.settings.greatest_play
+    plays = {kind: 2 * job.printer.side_clearance(kind) for kind in RUNNING}
+    return [*(kind for kind, play in plays.items() if scatter < play <= limit - scatter), "ream"]
+
+
+def bush_rule(job: PrintJob) -> Iterator[Finding]:
+    """Plastic stays around bushes."""
+    for one in job.parts:
+        bores = {bore.name: bore for bore in one.part.features if isinstance(bore, Bore)}
+        for hole in one.made.holes:
+            if hole.bush is None or hole.name not in bores:
+                continue
+            wall = wall_beside(one.part, bores[hole.name]) - hole.target / 2
+            if wall < WALL:
+                yield Finding.warning(
+                    "print.bush",
+                    "print.holes",
+                    f"{_key(hole)}: {wall:.2f} mm of plastic stay beside a bush of {hole.bush.outside:g} mm, "
+                    f"and it takes {WALL:g} mm",
+                    wall,
+                    WALL,
+                    "mm",
+                    _line(job, [hole], "ream"),
+                    proposed=(_change(job, [hole], "ream"),),
+                )
 
 
 def insert_rule(job: PrintJob) -> Iterator[Finding]:

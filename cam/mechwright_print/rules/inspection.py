@@ -32,12 +32,12 @@ class Printable(Inspection):
 def findings_of(build: Build) -> list[Finding]:
     """What the rules find of a print, whether the design asks for one or a command does."""
     from mechwright_print.job.print_job import PrintJob
-    from mechwright_print.rules.holes import fit_rule, insert_rule
+    from mechwright_print.rules.holes import bush_rule, fit_rule, insert_rule
     from mechwright_print.rules.running import RUNNING
 
     job = build.made(PrintJob)
     found = [found for one in job.parts for found in part_findings(job, one)]
-    found += [*fit_rule(job), *insert_rule(job)]
+    found += [*fit_rule(job), *insert_rule(job), *bush_rule(job)]
     found += [found for rule in RUNNING for found in rule(build, job)]
     return at_stage(Stage.MACHINING, found)
 

@@ -11,9 +11,10 @@ from mechwright.contracts.details import Engraving
 from mechwright.contracts.finding import Change, Finding
 from mechwright.contracts.part import Part
 from mechwright.designs.design import Design
+from mechwright.errors import MechwrightError
 from mechwright.tolerances import exceeds
 from mechwright_print.job.print_job import JobPart, PrintJob
-from mechwright_print.printer.facts import BRIDGE, LINES
+from mechwright_print.printer.facts import BRIDGE, LINES, STEEP
 from mechwright_print.printer.settings import Printer
 from mechwright_print.rules.faces import hanging_faces
 from mechwright_print.rules.walls import Narrow, narrowest
@@ -43,7 +44,7 @@ def _thin(design: Design, part: Part, thin: Narrow, printer: Printer) -> Finding
     able = next(
         (size for size in NOZZLES if LINES * size * printer.line_width / printer.nozzle <= thin.width), None
     )
-    larger, proposed = _larger(design, limit / thin.width)
+    larger, proposed = _larger(design, part, thin.width, printer)
     ways = [larger] if larger else []
     if able is not None:
         ways.append(f"set nozzle = {able:g} in the file of the printer, with that nozzle")
@@ -62,15 +63,28 @@ def _thin(design: Design, part: Part, thin: Narrow, printer: Printer) -> Finding
     )
 
 
-def _larger(design: Design, factor: float) -> tuple[str, tuple[Change, ...]]:
-    """The line by which the whole mechanism grows, where its family has one size for all."""
+def _larger(design: Design, part: Part, width: float, printer: Printer) -> tuple[str, tuple[Change, ...]]:
+    """The line by which the whole mechanism grows, where its family has one size for all, and that helps."""
+    limit = least_wall(printer)
     for key in design.family.size_keys:
         value = getattr(design.params, key, None)
         if isinstance(value, (int, float)) and not isinstance(value, bool):
-            made = math.ceil(value * factor * 10) / 10
-            change: Change = {f"parameters.{key}": made}
-            return f"set {key} = {made:g}", (change,)
+            for factor in (limit / width, (limit / width) ** 2):
+                made = math.ceil(value * factor * 10) / 10
+                change: Change = {f"parameters.{key}": made}
+                if _is_wide(design, change, part, limit):
+                    return f"set {key} = {made:g}", (change,)
+            break
     return "", ()
+
+
+def _is_wide(design: Design, change: Change, part: Part, limit: float) -> bool:
+    """Whether a part has no wall below a limit, mm, once the design is changed."""
+    try:
+        parts = design.changed(change, settle=False).parts()
+    except MechwrightError:
+        return False
+    return all(narrowest(one, limit, "wall") is None for one in parts if one.name == part.name)
 
 
 def gap_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
@@ -190,6 +204,39 @@ def loss_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:  # noqa: ARG001
         )
 
 
+def form_rule(job: PrintJob, one: JobPart) -> Iterator[Finding]:
+    """Of bodies of free form the bores are corrected; that all else is not is told."""
+    part = one.part
+    if part.outline is None and job.settings.compensate == "model":
+        bores = [] if part.free_form is None else [bore.name for bore in part.free_form.bores]
+        said = f"its bores {', '.join(bores)} are corrected" if bores else "it has no round holes"
+        level = level_bores(job, one)
+        drilled = (
+            f"; bores that lean by more than {STEEP:g}° sag, drill them: {', '.join(level)}" if level else ""
+        )
+        off = job.printer.deviation.wall / 2
+        yield Finding.note(
+            "print.free-form",
+            f"{part.name} is of free form: {said}, its other faces stay as drawn and come out by "
+            f"{off:+.3f} mm on each side{drilled}",
+            off,
+            "mm",
+        )
+
+
+def level_bores(job: PrintJob, one: JobPart) -> list[str]:
+    """Names of the bores of a body whose axes lean by more than 45 degrees as it lies on the bed."""
+    if one.part.free_form is None or not one.part.free_form.bores:
+        return []
+    upright = job.mesh_of(one).to_bed[2]
+    least = math.cos(math.radians(STEEP))
+    return [
+        bore.name
+        for bore in one.part.free_form.bores
+        if abs(sum(a * b for a, b in zip(bore.axis, upright.tolist(), strict=True))) < least
+    ]
+
+
 RULES = (
     bed_rule,
     wall_rule,
@@ -197,5 +244,6 @@ RULES = (
     layer_rule,
     bridge_rule,
     loss_rule,
+    form_rule,
 )
 """All of them, in the order in which they are told."""

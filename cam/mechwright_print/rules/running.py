@@ -1,7 +1,7 @@
 """Whether the printed mechanism runs: flanks of gears, plays over the spread, errors beyond limits."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from mechwright.contracts.finding import Change, Finding
 from mechwright.designs.text import toml
@@ -11,6 +11,7 @@ from mechwright.pipeline.tolerances.units import percent, shown, shown_unit
 from mechwright.tolerances import TOLERANCES
 from mechwright_print.as_made import AsPrinted
 from mechwright_print.job.print_job import PrintJob
+from mechwright_print.rules.better import REAMED, better_printer, working
 from mechwright_print.rules.holes import MEASURE
 
 LOOSENING = ("groove_clearance", "lock_clearance", "guide_clearance", "backlash", "play")
@@ -50,18 +51,21 @@ def running_rule(build: Build, job: PrintJob) -> Iterator[Finding]:
     broken = [one for one in build.made(AsPrinted).outputs if not one.is_kept]
     jamming = [one for one in broken if one.output.stays_above]
     if jamming:
-        yield _jam(build, job, min(jamming, key=lambda one: one.kept or 0.0), len(jamming))
+        yield _jam(build, job, jamming)
     for one in broken:
         if not one.output.stays_above:
-            yield _miss(job, one)
+            yield _miss(build, job, one)
 
 
-def _jam(build: Build, job: PrintJob, one: ComparedOutput, count: int) -> Finding:
+def _jam(build: Build, job: PrintJob, jamming: Sequence[ComparedOutput]) -> Finding:
     """One finding for all plays: the same room helps them."""
-    unit, more = one.output.unit, f", and {count - 1} more" if count > 1 else ""
-    reamed: Change = {} if job.settings.fits == "ream" else {"print.fits": "ream"}
+    one = min(jamming, key=lambda each: each.kept or 0.0)
+    unit, more = one.output.unit, f", and {len(jamming) - 1} more" if len(jamming) > 1 else ""
     rooms = _rooms(build)
-    proposed = (*rooms, *([reamed] if reamed else []), *({**room, **reamed} for room in rooms if reamed))
+    reamed = [] if job.settings.fits == "ream" else [REAMED]
+    proposed = working(
+        build, job, jamming, (*rooms, *reamed, *({**room, **REAMED} for room in rooms if reamed))
+    )
     kind = Finding.error if job.printer.measured else Finding.warning
     return kind(
         "print.as-made",
@@ -71,14 +75,14 @@ def _jam(build: Build, job: PrintJob, one: ComparedOutput, count: int) -> Findin
         one.half,
         0.0,
         unit,
-        (_words(proposed) or "take a printer with less spread") + ("" if job.printer.measured else MEASURE),
+        (_words(proposed) or better_printer(build, job, jamming)) + ("" if job.printer.measured else MEASURE),
         proposed=proposed,
     )
 
 
-def _miss(job: PrintJob, one: ComparedOutput) -> Finding:
+def _miss(build: Build, job: PrintJob, one: ComparedOutput) -> Finding:
     unit = one.output.unit
-    proposed: tuple[Change, ...] = () if job.settings.fits == "ream" else ({"print.fits": "ream"},)
+    proposed = working(build, job, [one], () if job.settings.fits == "ream" else (REAMED,))
     kind = Finding.error if job.printer.measured else Finding.warning
     return kind(
         "print.error",
@@ -88,7 +92,7 @@ def _miss(job: PrintJob, one: ComparedOutput) -> Finding:
         one.half,
         one.limit,
         unit,
-        (_words(proposed) or "take a printer with less spread") + ("" if job.printer.measured else MEASURE),
+        (_words(proposed) or better_printer(build, job, [one])) + ("" if job.printer.measured else MEASURE),
         proposed=proposed,
     )
 

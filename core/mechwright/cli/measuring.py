@@ -39,8 +39,7 @@ def measure(design: Path, values: Path | None, output: Path | None, *, force: bo
         readings = read_readings(values, build.parts)
         found = corrections(build, readings)
         pairs = pairings(build, readings)
-        sizes = {f"{one.part.name}.{one.dimension.name}": one.dimension.nominal for one in readings}
-        running = as_measured(build, pairs, found, [sizes[pair.hole] for pair in pairs])
+        running = as_measured(build, pairs, found)
     failed = [one for one in readings if not one.is_within]
     if as_json:
         typer.echo(json.dumps(_data(readings, found, pairs, running), indent=2))
@@ -71,7 +70,7 @@ def _lines(
     for pair in pairs:
         names = ", ".join(f"{pair.shafts[i]} in {pair.holes[j]}" for i, j in pair.chosen)
         yield (
-            f"{pair.shaft} in {pair.hole}: greatest play {pair.as_chosen:.3f} mm with {names}; "
+            f"{pair.shaft} in {pair.hole}{_joint(pair)}: greatest play {pair.as_chosen:.3f} mm with {names}; "
             f"{pair.as_numbered:.3f} mm as numbered"
         )
     for output in running:
@@ -81,6 +80,10 @@ def _lines(
         kept = "" if output.kept is None else f"; {percent(output.kept)} within the limit"
         half = f"{shown(output.half, unit)} {shown_unit(unit)}"
         yield f"{output.output.name}: 99.73 % {what} {half}{before}{kept}"
+
+
+def _joint(pair: Pairing) -> str:
+    return f", joint {' and '.join(pair.joints)}" if pair.joints else ""
 
 
 def _mm(value: float | None) -> str:
@@ -119,6 +122,7 @@ def _data(
             {
                 "shaft": pair.shaft,
                 "hole": pair.hole,
+                "joints": pair.joints,
                 "together": [[pair.shafts[i], pair.holes[j]] for i, j in pair.chosen],
                 "greatest": pair.as_chosen,
                 "as_numbered": pair.as_numbered,

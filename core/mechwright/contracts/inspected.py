@@ -72,9 +72,12 @@ class Dimension:
 
 
 def inspected(part: Part) -> tuple[Dimension, ...]:
-    """The dimensions of a plate or of a turned part; none of another one."""
+    """The dimensions of a plate, of a turned part, or of the bores of a free form; none of another one."""
     if part.turned is not None:
         return tuple(_turned(part.turned))
+    if part.free_form is not None:
+        bores = part.free_form.bores
+        return tuple(_of_fit(one.name, f"{one.name} ⌀", one.diameter, one.fit, -2) for one in bores)
     if part.outline is None:
         return ()
     return tuple(dimensions(part.measures, part.outline.bounds, part.features, part.thickness))

@@ -175,7 +175,15 @@ class Tolerances:
         zone = Zone(0.0, 2 * radius, settings.distribution)
         return self._owned(Contributor(name, f"{key} distribution", "mm", 0.0, (zone,), 2))
 
-    def pin(self, name: str, diameter: float, own: float | str, *, member: bool = False) -> Contributor:
+    def pin(
+        self,
+        name: str,
+        diameter: float,
+        own: float | str,
+        *,
+        member: bool = False,
+        joint: str = "",  # noqa: ARG002 - for tolerances that know what was made of a joint
+    ) -> Contributor:
         """A pin that turns in a hole, mm.
 
         Parameters
@@ -189,6 +197,8 @@ class Tolerances:
             or a fit.
         member
             Whether it is a joint of a link that is pressed or pulled along itself, and at no other place.
+        joint
+            Name of the motion's joint, for parts as measured. Default: ``name``.
 
         Raises
         ------

@@ -53,10 +53,18 @@ class Parallel:
         Run either way.
     side
         1 for parallels on its left, -1 on its right.
+    shares
+        Of every segment, how much of a distance it moves; below 0 it moves to the other side. Neighbours
+        that go on in one direction have the same. Default: all move by the whole of it.
     """
 
     loop: Loop
     side: int = 1
+    shares: tuple[float, ...] = ()
+
+    @property
+    def _shares(self) -> tuple[float, ...]:
+        return self.shares or (1.0,) * len(self.loop.segments)
 
     def point(self, segment: Segment, t: ArrayLike, distance: ArrayLike) -> Array:
         """Points (n, 2) at parameters t (n,), mm, moved by distances (n,); t may lie beyond 0 and 1."""
@@ -72,19 +80,22 @@ class Parallel:
         GeometryError where two neighbours do not meet any more.
         """
         segments = self.loop.segments
-        pairs = zip(segments, (*segments[1:], segments[0]), strict=True)
-        found = np.array([self._joint(one, two, distances) for one, two in pairs])
+        moved = [share * distances for share in self._shares]
+        pairs = zip(segments, (*segments[1:], segments[0]), moved, (*moved[1:], moved[0]), strict=True)
+        found = np.array([self._joint(*pair) for pair in pairs])
         return found[:, 0], found[:, 1]
 
-    def _joint(self, one: Segment, two: Segment, distances: Array) -> Array:
+    def _joint(self, one: Segment, two: Segment, distances: Array, others: Array) -> Array:
+        """Parameters on ``one``, moved by ``distances`` (m,), and on ``two``, moved by ``others``."""
         a, b = np.ones(len(distances)), np.zeros(len(distances))
         if self.loop.is_circle:
             return np.array([a, b])
 
-        both, start = np.tile(distances, 2), np.subtract(one.end, two.start)
+        start = np.subtract(one.end, two.start)
+        of_one, of_two = np.tile(distances, 2), np.tile(others, 2)
         for _ in range(ITERATIONS):
-            p = self.point(one, np.concatenate((a, a + STEP)), both).reshape(2, -1, 2)
-            q = self.point(two, np.concatenate((b, b + STEP)), both).reshape(2, -1, 2)
+            p = self.point(one, np.concatenate((a, a + STEP)), of_one).reshape(2, -1, 2)
+            q = self.point(two, np.concatenate((b, b + STEP)), of_two).reshape(2, -1, 2)
             off = p[0] - q[0] - start  # what the loop itself leaves open stays
             if np.abs(off).max() <= MET:
                 return np.array([a, b])
@@ -138,8 +149,10 @@ class Parallel:
         """The parallel whose segments begin and end at parameters (n,) that :meth:`joints` has given."""
         segments = self.loop.segments
         moved = [
-            self._moved(segment, a, b, distance)
-            for segment, a, b in zip(segments, starts.tolist(), ends.tolist(), strict=True)
+            self._moved(segment, a, b, share * distance)
+            for segment, a, b, share in zip(
+                segments, starts.tolist(), ends.tolist(), self._shares, strict=True
+            )
         ]
         loop = Loop(tuple(moved))
         self._check(loop, distance)
@@ -173,10 +186,12 @@ class Parallel:
         return radius
 
     def _check(self, moved: Loop, distance: float) -> None:
-        """Refuse a parallel that crosses itself, or that is not what polygons say."""
+        """Refuse a parallel that crosses itself, or, of one distance, that is not what polygons say."""
         import shapely
 
         ring, edge = shapely.LinearRing(moved.flatten()), shapely.LinearRing(self.loop.flatten())
+        if self.shares and ring.is_simple and ring.is_ccw == edge.is_ccw:
+            return
         inwards = self.side if edge.is_ccw else -self.side
         wanted = shapely.buffer(
             shapely.Polygon(edge), -inwards * distance, join_style="mitre", mitre_limit=MITRE

@@ -4,7 +4,7 @@ from mechwright.pipeline.build import Build, Wanted
 from mechwright.pipeline.inspection import Inspection
 from mechwright.pipeline.page import FileName, Page
 from mechwright.pipeline.run import Run
-from mechwright.pipeline.stock import Blank, RawStock
+from mechwright.pipeline.stock import Blank, Feedstock, RawStock
 from mechwright.pipeline.work import LOOK, PROGRAMS, SOLIDS, WORK, Work, work_to
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "WORK",
     "Blank",
     "Build",
+    "Feedstock",
     "FileName",
     "Inspection",
     "Page",

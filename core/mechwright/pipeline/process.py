@@ -43,7 +43,10 @@ class Process(Plugin):
         """What the plate has less of than as drawn, each in a few words; by default nothing."""
         return ()
 
-    def correction(self, off: float, walls: str) -> str:  # noqa: ARG002 - for those that have registers
+    by_material: ClassVar[bool] = False
+    """Whether what it leaves on a wall differs by material and thickness, as a kerf does."""
+
+    def correction(self, off: float, walls: str, part: "Part", build: Build) -> str:  # noqa: ARG002
         """What to set for the next piece where stock stays on each wall, as a clause.
 
         Parameters
@@ -52,6 +55,10 @@ class Process(Plugin):
             That stock, mm; below 0 the walls are cut too deep.
         walls
             Of which ones: ``"all"``, ``"inside"`` or ``"outside"``.
+        part
+            One of those that were measured.
+        build
+            Whose design says how it is made.
         """
         return f"move the walls by {-off:+.4f} mm"
 

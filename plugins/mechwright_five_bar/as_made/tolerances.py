@@ -56,7 +56,8 @@ def _sources(
         yield Source(size, (Fixed(Change(changes)),))
     joints = {one.name: one for one in table.machine.joints if isinstance(one, Revolute)}
     for name, (joint, link) in PINS.items():
-        pin = tolerances.pin(name, params.pin_diameter, params.running_fit, member=name in ("pin-a", "pin-c"))
+        member = name in ("pin-a", "pin-c")
+        pin = tolerances.pin(name, params.pin_diameter, params.running_fit, member=member, joint=joint)
         ways = (1 + 0j, 1j)[: pin.components]
         yield Source(pin, tuple(Play(link, (joints[joint],), "coupler", way) for way in ways))
     for name in meshes:

@@ -53,7 +53,7 @@ class GenevaTolerances(ToleranceModel):
         self.contributors: tuple[Contributor, ...] = (
             tolerances.centre("centre", m.axes),
             tolerances.length("crank", m.crank),
-            tolerances.pin("roller-pin", m.params.pin_diameter, fit, member=True),
+            tolerances.pin("roller-pin", m.params.pin_diameter, fit, member=True, joint="roller-1"),
             tolerances.gap("roller-in-slot", params.groove_clearance, 2),
             tolerances.eccentricity("wheel-eccentricity"),
             tolerances.wall("slot-left"),

@@ -50,12 +50,12 @@ def _sources(table: Mechanism, tolerances: Tolerances) -> Iterator[Source]:
     yield Source(tolerances.length("crank", given.crank), (Fixed(Change({("crank-pin", "crank"): 1.0})),))
     yield Source(tolerances.length("rod", given.rod), (Fixed(Change({("wrist-pin", "rod"): 1.0})),))
     yield Source(tolerances.length("offset", given.offset), (line,))
-    for joint, link, size, way in (
-        (shaft, "crank", sizes.shaft, 1.0),
-        (crank_pin, "crank", sizes.pin, -1.0),
-        (wrist_pin, "slider", sizes.pin, 1.0),
+    for joint, made, link, size, way in (
+        (shaft, "shaft", "crank", sizes.shaft, 1.0),
+        (crank_pin, "pin-a", "crank", sizes.pin, -1.0),
+        (wrist_pin, "pin-b", "slider", sizes.pin, 1.0),
     ):
-        play = tolerances.pin(joint.name, size, f"{RUNNING}/h6", member=joint is not shaft)
+        play = tolerances.pin(joint.name, size, f"{RUNNING}/h6", member=joint is not shaft, joint=made)
         ways = (complex(way), 1j * way)[: play.components]
         yield Source(play, tuple(Play(link, (joint,), "rod", one) for one in ways))
     yield Source(tolerances.gap("guide", 2 * given.play, GUIDE_WALLS), (line,))

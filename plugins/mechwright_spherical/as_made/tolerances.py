@@ -40,6 +40,16 @@ _DEAD = 1e-6
 
 _ARCS = ("ground", "crank", "coupler", "rocker", "arm")
 
+_MADE = {
+    "crank-shaft": "a0",
+    "crank-pin": "a",
+    "coupler-pin": "c",
+    "output-shaft": "b0",
+    "arm-pin": "b",
+    "arm-shaft": "b0",
+}
+"""Contributor to the joint of the motion."""
+
 _CRANK_SIDE = ("crank-shaft", "crank-pin")
 """Joints whose play moves A."""
 
@@ -75,7 +85,11 @@ class SphericalTolerances(ToleranceModel):
         hardware = params.hardware
         pins = [
             tolerances.pin(
-                name, hardware.pin_diameter, hardware.fit, member=name in ("crank-pin", "coupler-pin")
+                name,
+                hardware.pin_diameter,
+                hardware.fit,
+                member=name in ("crank-pin", "coupler-pin"),
+                joint=_MADE[name],
             )
             for name in self.joints
         ]

@@ -52,18 +52,26 @@ class Correction:
 
 
 def corrections(build: Build, readings: Sequence[Reading]) -> list[Correction]:
-    """What the next piece takes, for each process of the plates that were measured."""
-    by_process: dict[str, list[Reading]] = {}
+    """What the next piece takes, for each process of the plates that were measured.
+
+    Where a process differs by material, so for each material and thickness.
+    """
+    known = {one.name: one for one in build.host.all(Process)}
+    alike: dict[tuple[object, ...], list[Reading]] = {}
     for one in readings:
         if one.part.outline is not None and one.dimension.walls:
-            by_process.setdefault(process_of(build.design, one.part.name), []).append(one)
-    known = {one.name: one for one in build.host.all(Process)}
+            name = process_of(build.design, one.part.name)
+            differs = name in known and known[name].by_material
+            key = (name, one.part.material, one.part.thickness) if differs else (name,)
+            alike.setdefault(key, []).append(one)
     found = []
-    for name, those in by_process.items():
+    for those in alike.values():
+        part = those[0].part
+        name = process_of(build.design, part.name)
         for walls, some in _groups(those):
             off, error = mean_offset(some)
             process = known.get(name)
-            words = "" if process is None or abs(off) < LEAST else process.correction(off, walls)
+            words = "" if process is None or abs(off) < LEAST else process.correction(off, walls, part, build)
             found.append(Correction(name, walls, off, error, len(some), words))
     return found
 

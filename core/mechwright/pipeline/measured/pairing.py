@@ -6,12 +6,13 @@ Problems, section 6.2.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.bodies import placed
+from mechwright.contracts.bodies import placed, rigid
+from mechwright.contracts.motion import Motion
 from mechwright.mechanics.mating.choice import Assembled
 from mechwright.mechanics.mating.rounds import Match
 from mechwright.pipeline.build import Build
@@ -39,6 +40,8 @@ class Pairing:
         (n, m) float, play of each shaft in each hole, mm; below 0 it does not go in.
     chosen
         For each of the first copies, which shaft goes into which hole: pairs of numbers.
+    joints
+        Names of the motion's joints that they make.
     """
 
     shaft: str
@@ -48,6 +51,7 @@ class Pairing:
     holes: tuple[str, ...]
     plays: Array
     chosen: tuple[tuple[int, int], ...]
+    joints: tuple[str, ...] = ()
 
     @property
     def as_numbered(self) -> float:
@@ -70,11 +74,29 @@ def pairings(build: Build, readings: Sequence[Reading]) -> list[Pairing]:
     found: dict[tuple[tuple[str, str], tuple[str, str]], Pairing] = {}
     for match in whole.matches:
         shaft, hole = _faces(whole, match)
-        if shaft in sizes and hole in sizes and (shaft, hole) not in found:
+        if shaft not in sizes or hole not in sizes:
+            continue
+        if (shaft, hole) not in found:
             found[shaft, hole] = _pairing(
                 shaft, hole, sizes[shaft], sizes[hole], moves=not whole.same_group(match)
             )
+        known = found[shaft, hole]
+        joints = dict.fromkeys((*known.joints, *_joints(whole, motion, match)))
+        found[shaft, hole] = replace(known, joints=tuple(joints))
     return list(found.values())
+
+
+def _joints(whole: Assembled, motion: Motion, match: Match) -> list[str]:
+    """The joint that a pin makes in its hole: it turns there, or both are bodies of a fixed one."""
+    heads = rigid(motion)
+    bodies = {whole.bodies[k].instance.body for k in (match.pin, match.hole)}
+    groups = {heads[body] for body in bodies}
+    return [
+        name
+        for name, joint in motion.joints.items()
+        if (joint.kind == "revolute" and {heads[joint.one], heads[joint.two]} == groups)
+        or (joint.kind == "fixed" and {joint.one, joint.two} == bodies)
+    ]
 
 
 def _faces(whole: Assembled, match: Match) -> tuple[tuple[str, str], tuple[str, str]]:

@@ -1,6 +1,6 @@
 """How the mechanism runs with its parts as measured: the family's analysis with what was measured.
 
-Walls stand off as measured, joints have the plays of the pairs that were measured; all else is as designed.
+Walls stand off as measured, and a joint has the plays of the pairs that make it; all else is as designed.
 """
 
 from collections.abc import Sequence
@@ -14,9 +14,6 @@ from mechwright.pipeline.measured.pairing import Pairing
 from mechwright.pipeline.tolerances.compared import ComparedOutput, compared
 from mechwright.pipeline.tolerances.table import TolerancesTable
 
-ALIKE = 0.5
-"""A joint is that of a measured pair if their diameters differ by less, mm."""
-
 
 @dataclass(frozen=True)
 class MeasuredTolerances(Tolerances):
@@ -25,21 +22,23 @@ class MeasuredTolerances(Tolerances):
     Parameters
     ----------
     plays
-        Diameter of a joint to least and greatest play of the pairs that are put together, mm.
+        Name of the motion's joint to least and greatest play of the pairs that make it, mm.
     wall
         Least and greatest stock on a wall, mm; None where none was measured.
     """
 
-    plays: dict[float, tuple[float, float]] = field(default_factory=dict)
+    plays: dict[str, tuple[float, float]] = field(default_factory=dict)
     off: tuple[float, float] | None = None
 
-    def pin(self, name: str, diameter: float, own: float | str, *, member: bool = False) -> Contributor:
-        """A joint with the plays that were measured of its diameter."""
-        found = super().pin(name, diameter, own, member=member)
-        near = min(self.plays, key=lambda one: abs(one - diameter), default=None)
-        if near is None or abs(near - diameter) > ALIKE:
+    def pin(
+        self, name: str, diameter: float, own: float | str, *, member: bool = False, joint: str = ""
+    ) -> Contributor:
+        """A joint with the plays that were measured of it."""
+        found = super().pin(name, diameter, own, member=member, joint=joint)
+        plays = self.plays.get(joint or name)
+        if plays is None:
             return found
-        zone = Zone(*self.plays[near], self.settings.distribution)
+        zone = Zone(*plays, self.settings.distribution)
         return Contributor(found.name, found.key, found.unit, 0.0, (zone,), found.directions)
 
     def wall(self, name: str) -> Contributor:
@@ -53,22 +52,20 @@ class MeasuredTolerances(Tolerances):
 
 
 def measured_tolerances(
-    build: Build, pairs: Sequence[Pairing], found: Sequence[Correction], diameters: Sequence[float]
+    build: Build, pairs: Sequence[Pairing], found: Sequence[Correction]
 ) -> MeasuredTolerances:
-    """What was measured as tolerances; ``diameters`` are those of the pairs, mm."""
-    plays: dict[float, tuple[float, float]] = {}
-    for pair, diameter in zip(pairs, diameters, strict=True):
-        if pair.moves:
-            own = [max(float(pair.plays[i, j]), 0.0) for i, j in pair.chosen]
-            known = plays.get(diameter, (own[0], own[0]))
-            plays[diameter] = (min(*own, known[0]), max(*own, known[1]))
+    """What was measured as tolerances."""
+    plays: dict[str, tuple[float, float]] = {}
+    for pair in pairs:
+        own = [max(float(pair.plays[i, j]), 0.0) for i, j in pair.chosen]
+        for joint in pair.joints:
+            known = plays.get(joint, (own[0], own[0]))
+            plays[joint] = (min(*own, known[0]), max(*own, known[1]))
     ends = [one.off + sign * SIGMAS * one.error for one in found for sign in (-1, 1)]
     asked = build.design.table(TolerancesTable)
     return MeasuredTolerances(asked.settings, asked.own, plays, (min(ends), max(ends)) if ends else None)
 
 
-def as_measured(
-    build: Build, pairs: Sequence[Pairing], found: Sequence[Correction], diameters: Sequence[float]
-) -> list[ComparedOutput]:
+def as_measured(build: Build, pairs: Sequence[Pairing], found: Sequence[Correction]) -> list[ComparedOutput]:
     """The outputs of the family's analysis; none where it has none."""
-    return compared(build, measured_tolerances(build, pairs, found, diameters), ())
+    return compared(build, measured_tolerances(build, pairs, found), ())

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
+from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.tolerance_settings import Tolerances, ToleranceSettings
 from mechwright.contracts.tolerances import Output
 from mechwright.mechanics.tolerance import Analysis, Result, analyse
@@ -47,13 +48,15 @@ class ComparedOutput:
         return self.kept is None or self.kept >= ALL_BUT
 
 
-def compared(build: Build, tolerances: Tolerances, set_: Iterable[str]) -> list[ComparedOutput]:
+def compared(
+    build: Build, tolerances: Tolerances, set_: Iterable[str], params: Parameters | None = None
+) -> list[ComparedOutput]:
     """The outputs of a build with other tolerances; none where its family has no analysis.
 
     ``set_`` are the keys of the settings that are not the design's: those on which nothing depends go back to
-    their defaults.
+    their defaults. ``params`` are other parameters than the design's.
     """
-    found = _analysis(build, tolerances, set_)
+    found = _analysis(build, tolerances, set_, params)
     if found is None:
         return []
     designed = build.made(analysis_of)
@@ -66,8 +69,9 @@ def compared(build: Build, tolerances: Tolerances, set_: Iterable[str]) -> list[
     return outputs
 
 
-def _analysis(build: Build, tolerances: T, set_: Iterable[str]) -> Analysis | None:
-    family, params = build.design.family, build.design.params
+def _analysis(build: Build, tolerances: T, set_: Iterable[str], params: Parameters | None) -> Analysis | None:
+    family = build.design.family
+    params = build.design.params if params is None else params
     model = family.tolerances(params, tolerances)
     if model is None:
         return None

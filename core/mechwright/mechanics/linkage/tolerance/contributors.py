@@ -167,7 +167,11 @@ def _pins(plates: Plates, tolerances: Tolerances, axis: Axis) -> Iterator[Source
         seen_from = pressed[0] if pressed else link
         way = plates.along(seen_from)
         size = tolerances.pin(
-            pin_name(plates, axis, link), sizes.pin_diameter, sizes.running_fit, member=bool(pressed)
+            pin_name(plates, axis, link),
+            sizes.pin_diameter,
+            sizes.running_fit,
+            member=bool(pressed),
+            joint=next((one.name for one in axis.joints if link in one.links), ""),
         )
         ways = (way, 1j * way)[: size.components]
         yield Source(size, tuple(Play(link, axis.joints, seen_from, one) for one in ways))
