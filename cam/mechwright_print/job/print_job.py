@@ -110,7 +110,7 @@ class PrintJob:
         one = self.of(part)
         from mechwright_print.job.filament import filament_mass
 
-        mesh = self.meshes.get(part.name) or self.mesh_of(one)
+        mesh = None if part.outline is not None else self.meshes.get(part.name) or self.mesh_of(one)
         grams = filament_mass(one.made.model, mesh, self.settings, self.printer)
         return grams / self.printer.grams_per_mm3 / self.printer.flow
 

@@ -39,6 +39,13 @@ class Process(Plugin):
     def refuses(self, part: "Part", build: Build) -> str | None:
         """Why it cannot make a plate, in a clause such as "its pocket has a floor"; None where it can."""
 
+    def objections(self, part: "Part", build: Build) -> Sequence[Finding]:  # noqa: ARG002 - for those with rules
+        """What its rules find of a plate, whether or not the design has chosen it; by default nothing.
+
+        Where an error has a remedy, the plate can be made with it. Asked of plates that it does not refuse.
+        """
+        return ()
+
     def loses(self, part: "Part", build: Build) -> Sequence[str]:  # noqa: ARG002 - for those that know
         """What the plate has less of than as drawn, each in a few words; by default nothing."""
         return ()
