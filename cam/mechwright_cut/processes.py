@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.part import Part
 from mechwright.pipeline import Build
-from mechwright.pipeline.process import Process, process_of
+from mechwright.pipeline.process import Process, Spread, process_of
 
 
 class Cut(Process):
@@ -35,6 +35,13 @@ class Cut(Process):
         from mechwright_cut.cutting import Cutting
 
         return build.made(Cutting).losses_of(self.name, part)
+
+    def spread(self, part: Part, build: Build) -> Spread:
+        """Its tolerance and taper."""
+        from mechwright_cut.settings.cut_table import cut_settings
+
+        process = cut_settings(build.design).kind(self.name, part.material)
+        return Spread(process.size, process.taper)
 
     def seconds(self, part: Part, build: Build) -> float | None:
         """The way around outside and openings at the feed, as often as it is run, and the pierces.

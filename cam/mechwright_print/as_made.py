@@ -1,78 +1,36 @@
 """What the mechanism does with printed parts: the family's own analysis of tolerances, with a printer's.
 
-Lengths between holes, centre distances and eccentricities scatter by 0.6 of a size: they are the middle of
-two walls each. A wall stands off by half of a size. A joint has the play of its design, and what stands
-around its bushing and its pin in holes that are printed.
+A joint has the play of its design, and what stands around its bushing and its pin in holes that are printed.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from mechwright.contracts.tolerance_settings import Tolerances
-from mechwright.contracts.tolerances import Contributor, Zone
 from mechwright.pipeline import Build
+from mechwright.pipeline.process import Spread
+from mechwright.pipeline.tolerances.by_process import with_spread
 from mechwright.pipeline.tolerances.compared import ComparedOutput, compared
 from mechwright.pipeline.tolerances.table import TolerancesTable
-from mechwright_print.job.print_job import PrintJob
 
-MIDDLE = 0.6
-"""Scatter of the middle of two walls in that of a size; handbook, unchecked."""
-
-
-@dataclass(frozen=True)
-class PrintedTolerances(Tolerances):
-    """What a printer's sizes do, in place of those of ``[tolerances]``.
-
-    Parameters
-    ----------
-    play
-        What a joint has besides its own play, on the diameter, mm: that of the loosest printed hole.
-    scatter
-        Of that, plus and minus, mm.
-    """
-
-    play: float = 0.0
-    scatter: float = 0.0
-
-    def pin(self, name: str, diameter: float, own: float | str, *, member: bool = False) -> Contributor:
-        """A joint with the play of the printed holes around it."""
-        found = super().pin(name, diameter, own, member=member)
-        if not self.scatter:
-            return found
-        more = Zone(self.play - self.scatter, self.play + self.scatter, self.settings.distribution)
-        return Contributor(
-            found.name, found.key, found.unit, found.nominal, (*found.zones, more), found.directions
-        )
+if TYPE_CHECKING:
+    from mechwright_print.job.print_job import JobPart, PrintJob
 
 
 class AsPrinted:
     """The outputs of a build whose parts are printed; none where its family has no analysis."""
 
     def __init__(self, build: Build) -> None:
-        tolerances = printed_tolerances(build, build.made(PrintJob))
-        self.outputs: list[ComparedOutput] = compared(build, tolerances, _SET)
+        from mechwright_print.job.print_job import PrintJob
+
+        job = build.made(PrintJob)
+        asked = build.design.table(TolerancesTable)
+        tolerances = with_spread(asked, printed_spread(job, job.parts), over=True)
+        self.outputs: list[ComparedOutput] = compared(build, tolerances)
 
 
-_SET = ("length", "centre", "eccentricity", "gouge", "leftover")
-"""Keys of ``[tolerances]`` that follow from the printer."""
-
-
-def printed_tolerances(build: Build, job: PrintJob) -> PrintedTolerances:
-    """What the printer's scatter makes of lengths, walls and joints."""
-    size = job.printer.scatter("wall")
-    asked = build.design.table(TolerancesTable)
-    middle = round(MIDDLE * size, 6)
-    settings = asked.settings.model_copy(
-        update={
-            "length": middle,
-            "centre": middle,
-            "eccentricity": middle,
-            "gouge": round(size / 2, 6),
-            "leftover": round(size / 2, 6),
-            "fit": None,
-            "clearance": None,
-        }
-    )
-    holes = [hole for one in job.parts for hole in one.made.holes if hole.fit is not None]
+def printed_spread(job: "PrintJob", parts: "Sequence[JobPart]") -> Spread:
+    """How far printed parts stray, with the play of the loosest hole that has a fit and is not reamed."""
+    holes = [hole for one in parts for hole in one.made.holes if hole.fit is not None]
     loose = [hole.target - hole.fit.size for hole in holes if hole.fit is not None and hole.kind != "ream"]
     scatter = job.printer.scatter("hole") if loose else 0.0
-    return PrintedTolerances(settings, {}, max([0.0, *loose]), scatter)
+    return Spread(job.printer.scatter("wall"), 0.0, max([0.0, *loose]), scatter)

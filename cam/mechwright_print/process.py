@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.part import Part
 from mechwright.pipeline import Build
-from mechwright.pipeline.process import Process
+from mechwright.pipeline.process import Process, Spread
+from mechwright_print.as_made import printed_spread
 from mechwright_print.settings import PRINT
 
 
@@ -46,6 +47,13 @@ class Printing(Process):
         if threads := [hole.name for hole in one.made.holes if hole.kind in {"insert", "screw", "tap"}]:
             lost.append(f"the threads of {', '.join(threads)}")
         return lost
+
+    def spread(self, part: Part, build: Build) -> Spread | None:
+        """The printer's scatter, and the play of holes that are wider than their fits."""
+        from mechwright_print.job.print_job import PrintJob
+
+        job = build.made(PrintJob)
+        return printed_spread(job, [job.of(part)])
 
     def correction(self, off: float, walls: str) -> str:
         """Deviations in the file of the printer."""

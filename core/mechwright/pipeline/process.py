@@ -2,6 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -24,6 +25,32 @@ if TYPE_CHECKING:
 
 MILL = "mill"
 """The process of what a design says nothing of."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """How far plates of a process stray from one to the next, mm.
+
+    Parameters
+    ----------
+    size
+        Of a length between two walls, plus and minus.
+    taper
+        Largest difference of such a length between the faces.
+    play, scatter
+        What a joint has besides its own play, on the diameter, and that plus and minus: of holes that the
+        process makes wider than drawn.
+    """
+
+    size: float
+    taper: float = 0.0
+    play: float = 0.0
+    scatter: float = 0.0
+
+    @property
+    def wall(self) -> float:
+        """By how much one wall may be off, mm: half of what two have, at the face where it is worst."""
+        return (self.size + self.taper) / 2
 
 
 class Process(Plugin):
@@ -49,6 +76,10 @@ class Process(Plugin):
     def loses(self, part: "Part", build: Build) -> Sequence[str]:  # noqa: ARG002 - for those that know
         """What the plate has less of than as drawn, each in a few words; by default nothing."""
         return ()
+
+    def spread(self, part: "Part", build: Build) -> Spread | None:  # noqa: ARG002 - for those that know
+        """How far the plate strays; None, the default, where a proof bounds its walls."""
+        return None
 
     def correction(self, off: float, walls: str) -> str:  # noqa: ARG002 - for those that have registers
         """What to set for the next piece where stock stays on each wall, as a clause.

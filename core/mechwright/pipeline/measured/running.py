@@ -71,4 +71,4 @@ def as_measured(
     build: Build, pairs: Sequence[Pairing], found: Sequence[Correction], diameters: Sequence[float]
 ) -> list[ComparedOutput]:
     """The outputs of the family's analysis; none where it has none."""
-    return compared(build, measured_tolerances(build, pairs, found, diameters), ())
+    return compared(build, measured_tolerances(build, pairs, found, diameters))

@@ -9,6 +9,7 @@ from mechwright.errors import DesignError
 from mechwright.mechanics.tolerance import Analysis, analyse, check_keys
 from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
+from mechwright.pipeline.tolerances.by_process import analysed, tolerances_for
 from mechwright.pipeline.tolerances.table import TolerancesTable
 
 KEYS = "tolerances.key"
@@ -17,8 +18,7 @@ KEYS = "tolerances.key"
 
 def tolerances_of(build: Build) -> Tolerances:
     """What the design says of tolerances."""
-    value: Tolerances = build.design.tables.get(TolerancesTable.name, Tolerances())
-    return value
+    return build.design.table(TolerancesTable)
 
 
 def model_of(build: Build) -> ToleranceModel | None:
@@ -39,7 +39,18 @@ def model_of(build: Build) -> ToleranceModel | None:
 
 
 def analysis_of(build: Build) -> Analysis | None:
-    """The analysis of a build; None where the family has none. Raises as :func:`model_of` does."""
+    """The analysis of a build whose plates stray as their processes do; None where the family has none.
+
+    Raises as :func:`model_of` does.
+    """
+    tolerances = tolerances_for(build, build.parts)
+    if tolerances is tolerances_of(build):
+        return build.made(drawn_analysis)
+    return None if model_of(build) is None else analysed(build, tolerances)
+
+
+def drawn_analysis(build: Build) -> Analysis | None:
+    """The analysis by what the design file says alone, whoever makes the plates; else as analysis_of."""
     model = model_of(build)
     return None if model is None else analyse(model, tolerances_of(build))
 

@@ -1,0 +1,142 @@
+"""Whether a mechanism runs whose parts stray as their process does: plays that jam, errors beyond limits."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from mechwright.contracts.finding import Change, Finding
+from mechwright.designs.text import toml
+from mechwright.pipeline.build import Build
+from mechwright.pipeline.tolerances.compared import ComparedOutput
+from mechwright.pipeline.tolerances.units import percent, shown, shown_unit
+from mechwright.tolerances import TOLERANCES
+
+LOOSENING = ("groove_clearance", "lock_clearance", "guide_clearance", "backlash", "play")
+"""Parameters by which families make room between walls that slide, mm."""
+ROOM = (0.1, 0.2, 0.3, 0.45, 0.6)
+"""More room that is tried, mm."""
+STEP = 0.05
+"""By which they are raised, mm."""
+
+
+@dataclass(frozen=True)
+class Making:
+    """How findings about parts of one process are worded.
+
+    Parameters
+    ----------
+    code
+        Of the process, such as ``"print"``.
+    parts
+        Its parts in words, such as ``"prints"``.
+    key
+        Of what loosens or tightens its holes, such as ``"print.fits"``.
+    kind
+        Makes the finding: an error where the spread is measured, else a warning.
+    tail
+        Said behind each remedy.
+    otherwise
+        The remedy where no change helps.
+    tighter
+        Changes of the process that take play away; none where it has none.
+    """
+
+    code: str
+    parts: str
+    key: str
+    kind: Callable[..., Finding]
+    otherwise: str
+    tail: str = ""
+    tighter: Change | None = None
+
+
+def backlash_rule(
+    build: Build, making: Making, outputs: Sequence[ComparedOutput], need: float
+) -> Iterator[Finding]:
+    """Teeth have more backlash than their flanks need, mm, where the family does not analyse it."""
+    params = build.design.params
+    if not hasattr(params, "backlash") or outputs:
+        return
+    backlash = params.backlash
+    if backlash is not None and backlash >= need:
+        return
+    said = "a backlash for milled gears" if backlash is None else f"{backlash:g} mm of backlash"
+    made = round(math.ceil(need / STEP - TOLERANCES.slack) * STEP, 3)
+    change: Change = {"parameters.backlash": made}
+    yield making.kind(
+        f"{making.code}.backlash",
+        "parameters.backlash",
+        f"the flanks have {said}, and those of two {making.parts} want {need:.2f} mm: they may jam",
+        backlash,
+        need,
+        "mm",
+        f"set backlash = {made:g}{making.tail}",
+        proposed=(change,),
+    )
+
+
+def running_rule(build: Build, making: Making, outputs: Sequence[ComparedOutput]) -> Iterator[Finding]:
+    """What the family's analysis says of parts that jam, or miss what is asked by more than they may."""
+    broken = [one for one in outputs if not one.is_kept]
+    jamming = [one for one in broken if one.output.stays_above]
+    if jamming:
+        yield _jam(build, making, min(jamming, key=lambda one: one.kept or 0.0), len(jamming))
+    for one in broken:
+        if not one.output.stays_above:
+            yield _miss(making, one)
+
+
+def _jam(build: Build, making: Making, one: ComparedOutput, count: int) -> Finding:
+    """One finding for all plays: the same room helps them."""
+    unit, more = one.output.unit, f", and {count - 1} more" if count > 1 else ""
+    tighter, rooms = making.tighter, _rooms(build)
+    proposed = (*rooms, *([tighter] if tighter else []), *({**room, **tighter} for room in rooms if tighter))
+    return making.kind(
+        f"{making.code}.as-made",
+        next(iter(rooms[0])) if rooms else making.key,
+        f"{percent(1 - (one.kept or 0.0))} of the {making.parts} jam: 99.73 % have {one.output.name} above "
+        f"{shown(one.half, unit)} {shown_unit(unit)}{more}",
+        one.half,
+        0.0,
+        unit,
+        (_words(proposed, making) or making.otherwise) + making.tail,
+        proposed=proposed,
+    )
+
+
+def _miss(making: Making, one: ComparedOutput) -> Finding:
+    unit = one.output.unit
+    proposed = () if making.tighter is None else (making.tighter,)
+    return making.kind(
+        f"{making.code}.error",
+        making.key,
+        f"{percent(1 - (one.kept or 0.0))} of the {making.parts} miss {one.output.name} by more than "
+        f"{shown(one.limit or 0.0, unit)} {shown_unit(unit)}; 99.73 % stay within {shown(one.half, unit)}",
+        one.half,
+        one.limit,
+        unit,
+        (_words(proposed, making) or making.otherwise) + making.tail,
+        proposed=proposed,
+    )
+
+
+def _words(proposed: tuple[Change, ...], making: Making) -> str:
+    """The first change as a line to type."""
+    if not proposed:
+        return ""
+    said = []
+    for key, value in proposed[0].items():
+        table, _, name = key.partition(".")
+        said.append(f"{name} = {toml(value)}" + (f" in [{table}]" if table == making.code else ""))
+    return f"set {' and '.join(said)}"
+
+
+def _rooms(build: Build) -> tuple[Change, ...]:
+    """Changes that give more room between walls, the least first; none where the design has no such key."""
+    params = build.design.params
+    known = {key: getattr(params, key) or 0.0 for key in LOOSENING if hasattr(params, key)}
+    return tuple(
+        {f"parameters.{key}": round(value + more, 3) for key, value in known.items()}
+        for more in ROOM
+        if known
+    )
