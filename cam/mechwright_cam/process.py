@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from mechwright.contracts.finding import Finding
+from mechwright.contracts.made_part import MadePart
 from mechwright.contracts.part import Part
 from mechwright.pipeline import PROGRAMS, Build
 from mechwright.pipeline.process import MILL, Process
@@ -23,6 +24,13 @@ class Milling(Process):
         from mechwright_cam.planning.trial import MillingTrial
 
         return build.made(MillingTrial).findings(part.name)
+
+    def made(self, part: Part, build: Build) -> Sequence[MadePart]:
+        """The walls of the posted text; nothing where one is not cut."""
+        from mechwright_cam.as_made import AsMadeParts
+
+        made = build.made(AsMadeParts)
+        return () if made.open else [one for one in made.parts if one.name == part.name]
 
     def correction(self, off: float, walls: str) -> str:
         """The wear of the cutter in the control, a radius."""

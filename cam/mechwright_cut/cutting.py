@@ -77,6 +77,7 @@ def question(job: CutJob, control: str) -> Question:
         full=float(settings.full_power),
         passes=settings.passes,
         joint_width=settings.joint_width,
+        taper=job.process.taper,
         refused="" if why is None or lifted else why.why,
     )
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from mechwright.contracts.finding import Finding
+from mechwright.contracts.made_part import MadePart
 from mechwright.contracts.part import Part
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import Process, Spread, process_of
@@ -42,6 +43,12 @@ class Cut(Process):
 
         process = cut_settings(build.design).kind(self.name, part.material)
         return Spread(process.size, process.taper)
+
+    def made(self, part: Part, build: Build) -> Sequence[MadePart]:
+        """The walls of the text, and the taper; nothing of a service."""
+        from mechwright_cut.as_cut import plates_as_cut
+
+        return build.made(plates_as_cut).get(part.name, ())
 
     def seconds(self, part: Part, build: Build) -> float | None:
         """The way around outside and openings at the feed, as often as it is run, and the pierces.

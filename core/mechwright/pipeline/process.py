@@ -20,6 +20,7 @@ from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
 
 if TYPE_CHECKING:
+    from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.part import Part
     from mechwright.designs.design import Design
 
@@ -80,6 +81,10 @@ class Process(Plugin):
     def spread(self, part: "Part", build: Build) -> Spread | None:  # noqa: ARG002 - for those that know
         """How far the plate strays; None, the default, where a proof bounds its walls."""
         return None
+
+    def made(self, part: "Part", build: Build) -> "Sequence[MadePart]":  # noqa: ARG002 - for those that know
+        """Each copy of a plate as its program leaves it; by default nothing, and nothing is judged by it."""
+        return ()
 
     def correction(self, off: float, walls: str) -> str:  # noqa: ARG002 - for those that have registers
         """What to set for the next piece where stock stays on each wall, as a clause.

@@ -89,7 +89,7 @@ def with_spread(asked: Tolerances, spread: Spread, *, over: bool = False) -> Spr
 
 
 def tolerances_for(build: Build, parts: Iterable[Part]) -> Tolerances:
-    """The tolerances of some plates of a design: its own, those of their processes where it leaves them out."""
+    """The tolerances of some plates: the design's own, those of their processes where it leaves them out."""
     asked = build.design.table(TolerancesTable)
     said = asked.settings.general
     if said != "process" and "general" in asked.settings.model_fields_set:
