@@ -1,0 +1,159 @@
+"""The first example of each family by laser, by service and by wire: proven, and assembled as made.
+
+    python benchmarks/bench_processes.py [--into FOLDER] [CASE ...]
+
+A case is a process and a family, such as ``laser/geneva``. Its design is an example with the material and the
+thickness of the process. Changes that the first error proposes are made until none is left, at most ten
+times; the row names the keys. Then programs or drawings are made and proven, and the family judges the
+mechanism with walls as the programs leave them. Solids are not compared. FOLDER keeps the files.
+"""
+
+import argparse
+import json
+import tempfile
+import time
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+
+from mechwright.contracts.finding import Stage, errors
+from mechwright.contracts.refused import RefusedError
+from mechwright.designs.design import load
+from mechwright.errors import MechwrightError
+from mechwright.output.folder import write_folder
+from mechwright.pipeline import PROGRAMS, Build, Run, Wanted, Work
+from mechwright.pipeline.as_made import as_made, made_plates
+from mechwright.pipeline.page import pages_of
+from mechwright.plugins.host import host
+from mechwright_cut.cutting import Cutting
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+WORK = Work(Stage.OUTPUT, frozenset({PROGRAMS}))
+ROUNDS = 10
+"""Changes at most."""
+ACRYLIC: dict[str, Any] = {"parameters.material": "acrylic"}
+STEEL: dict[str, Any] = {"parameters.material": "steel"}
+FAMILIES = {
+    "cam-follower": ("cam-lever", {"parameters.thickness": 6.0}),
+    "elliptic-gears": ("elliptic-pair", {"parameters.thickness": 6.0}),
+    "five-bar": ("five-bar-slots", {}),
+    "four-bar": ("four-bar-double-rocker", {}),
+    "geneva": ("geneva-straight", {"parameters.thickness": 4.0, "parameters.crank_thickness": 4.0}),
+    "linkage": ("linkages/hoecken", {}),
+    "noncircular-gears": ("noncircular-lobes", {"parameters.thickness": 6.0}),
+    "plate": ("nema-17-plate", {}),
+    "slider-crank": ("slider-crank-quick-return", {}),
+    "spherical": ("spherical-crank-rocker", {}),
+    "spur-gears": ("spur-gears", {"parameters.thickness": 6.0}),
+}
+"""Family to its first example, and what a sheet of the process asks of it."""
+WIRE = ("elliptic-gears", "noncircular-gears", "spur-gears", "geneva", "cam-follower")
+PROCESSES: dict[str, tuple[Mapping[str, Any], dict[str, Any], tuple[str, ...]]] = {
+    "laser": ({"small_holes": "spot", "sheet": {"length": 900, "width": 600}}, ACRYLIC, tuple(FAMILIES)),
+    "service": ({"small_holes": "spot"}, STEEL, tuple(FAMILIES)),
+    "wire": ({"passes": 3, "sheet": {"length": 900, "width": 600}}, STEEL, WIRE),
+}
+"""Process to its table, its material, and the families."""
+
+
+@dataclass
+class Row:
+    """What became of a case."""
+
+    case: str
+    answer: str = ""
+    changes: dict[str, Any] = field(default_factory=dict)
+    programs: int = 0
+    pieces: int = 0
+    metres: float = 0.0
+    made: str = ""
+    seconds: float = 0.0
+
+
+def written(process: str, family: str, folder: Path) -> Path:
+    """The file of a case: the example with another process, without what was chosen for the mill."""
+    name, sizes = FAMILIES[family]
+    table, material, _ = PROCESSES[process]
+    content = tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
+    content = {key: value for key, value in content.items() if key not in ("cam", "machine")}
+    content |= {"process": process, "cut": dict(table)}
+    if "drawing" in content["parameters"]:
+        content["parameters"]["drawing"] = str(EXAMPLES / content["parameters"]["drawing"])
+    path = folder / process / family / "design.toml"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(tomlkit.dumps(content), encoding="utf-8")
+    design = load(path, host())
+    fields = type(design.params).model_fields
+    change = {key: value for key, value in (material | sizes).items() if key.partition(".")[2] in fields}
+    for key, value in change.items():
+        content["parameters"][key.partition(".")[2]] = value
+    path.write_text(tomlkit.dumps(content), encoding="utf-8")
+    return path
+
+
+def made(case: str, folder: Path) -> Row:
+    """The case, after the changes that its errors propose."""
+    process, _, family = case.partition("/")
+    row, began = Row(case), time.perf_counter()
+    try:
+        design = load(written(process, family, folder), host())
+        for _ in range(ROUNDS + 1):
+            with Build(design, host(), Wanted("cut", work=WORK)) as build:
+                run = Run(build, WORK)
+                try:
+                    files = run.make(pages_of(build.host, "cut"))
+                except RefusedError:
+                    wrong = errors(run.findings)
+                    change = next((dict(one.proposed[0]) for one in wrong if one.proposed), None)
+                    if change is None:
+                        row.answer = str(wrong[0])
+                        break
+                    row.changes |= change
+                    design = design.changed(change)
+                    continue
+                row.answer = "yes"
+                _count(row, build)
+                write_folder(folder / process / family / "out", files, "cut", {})
+                break
+        else:
+            row.answer = f"not after {ROUNDS} changes"
+    except MechwrightError as error:
+        row.answer = str(error)
+    row.seconds = round(time.perf_counter() - began, 1)
+    return row
+
+
+def _count(row: Row, build: Build) -> None:
+    """Programs, pieces, metres of the way, and figures as made."""
+    cutting = build.made(Cutting)
+    row.programs = len(cutting.programs) or len(cutting.ordered)
+    row.pieces = sum(len(one.job.pieces) for one in cutting.programs) or sum(
+        max(1, len(one.part.instances)) for one in cutting.ordered
+    )
+    row.metres = round(sum(one.proof.length for one in cutting.programs) / 1000, 2)
+    plates, said = build.made(made_plates), build.made(as_made)
+    worst = max((float(abs(part.off).max()) for parts in plates.values() for part in parts), default=0.0)
+    judged = f"{len(said.figures)} figures" if said.figures else "not judged"
+    row.made = f"{judged}, walls within {1000 * worst:.1f} µm" if plates else "not judged"
+
+
+def main() -> None:
+    """Print a row for each case."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--into", type=Path, help="folder that keeps the files")
+    every = [f"{process}/{family}" for process, (_, _, of) in PROCESSES.items() for family in of]
+    parser.add_argument("cases", nargs="*", default=every)
+    args = parser.parse_args()
+    with tempfile.TemporaryDirectory() as other:
+        for case in args.cases:
+            print(json.dumps(asdict(made(case, args.into or Path(other))), ensure_ascii=False), flush=True)
+
+
+if __name__ == "__main__":
+    main()
