@@ -10,17 +10,18 @@ mechanism with walls as the programs leave them. Solids are not compared. FOLDER
 
 import argparse
 import json
+import re
 import tempfile
 import time
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import tomlkit
 
-from mechwright.contracts.finding import Stage, errors
+from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.refused import RefusedError
 from mechwright.designs.design import load
 from mechwright.errors import MechwrightError
@@ -37,20 +38,26 @@ ROUNDS = 10
 """Changes at most."""
 ACRYLIC: dict[str, Any] = {"parameters.material": "acrylic"}
 STEEL: dict[str, Any] = {"parameters.material": "steel"}
-FAMILIES = {
-    "cam-follower": ("cam-lever", {"parameters.thickness": 6.0}),
-    "elliptic-gears": ("elliptic-pair", {"parameters.thickness": 6.0}),
-    "five-bar": ("five-bar-slots", {}),
-    "four-bar": ("four-bar-double-rocker", {}),
-    "geneva": ("geneva-straight", {"parameters.thickness": 4.0, "parameters.crank_thickness": 4.0}),
-    "linkage": ("linkages/hoecken", {}),
-    "noncircular-gears": ("noncircular-lobes", {"parameters.thickness": 6.0}),
-    "plate": ("nema-17-plate", {}),
-    "slider-crank": ("slider-crank-quick-return", {}),
-    "spherical": ("spherical-crank-rocker", {}),
-    "spur-gears": ("spur-gears", {"parameters.thickness": 6.0}),
+SIX = {
+    f"parameters.{key}": 6.0
+    for key in ("thickness", "ground_thickness", "follower_thickness", "gear_thickness", "crank_thickness")
 }
-"""Family to its first example, and what a sheet of the process asks of it."""
+FAMILIES = {
+    "cam-follower": ("cam-lever", SIX),
+    "elliptic-gears": ("elliptic-pair", SIX),
+    "five-bar": ("five-bar-slots", SIX),
+    "four-bar": ("four-bar-double-rocker", SIX),
+    "geneva": ("geneva-straight", {**SIX, "parameters.thickness": 4.0}),
+    "linkage": ("linkages/hoecken", SIX),
+    "noncircular-gears": ("noncircular-lobes", SIX),
+    "plate": ("nema-17-plate", SIX),
+    "slider-crank": ("slider-crank-quick-return", SIX),
+    "spherical": ("spherical-crank-rocker", SIX),
+    "spur-gears": ("spur-gears", SIX),
+}
+"""Family to its first example, and the plates of a sheet of 6 mm; a locking disc is 2 mm thicker."""
+MAKE = re.compile(r"make (\w+) ([0-9.]+)")
+"""How some remedies name a key and its value."""
 WIRE = ("elliptic-gears", "noncircular-gears", "spur-gears", "geneva", "cam-follower")
 PROCESSES: dict[str, tuple[Mapping[str, Any], dict[str, Any], tuple[str, ...]]] = {
     "laser": ({"small_holes": "spot", "sheet": {"length": 900, "width": 600}}, ACRYLIC, tuple(FAMILIES)),
@@ -108,8 +115,7 @@ def made(case: str, folder: Path) -> Row:
                     files = run.make(pages_of(build.host, "cut"))
                 except RefusedError:
                     wrong = errors(run.findings)
-                    change = next((dict(one.proposed[0]) for one in wrong if one.proposed), None)
-                    if change is None:
+                    if not (change := _change(wrong)):
                         row.answer = str(wrong[0])
                         break
                     row.changes |= change
@@ -125,6 +131,16 @@ def made(case: str, folder: Path) -> Row:
         row.answer = str(error)
     row.seconds = round(time.perf_counter() - began, 1)
     return row
+
+
+def _change(wrong: Sequence[Finding]) -> dict[str, Any]:
+    """What the first error proposes that proposes anything; empty where none does."""
+    for one in wrong:
+        if one.proposed:
+            return dict(one.proposed[0])
+        if said := MAKE.search(one.remedy):
+            return {f"parameters.{said[1]}": float(said[2].rstrip("."))}
+    return {}
 
 
 def _count(row: Row, build: Build) -> None:
