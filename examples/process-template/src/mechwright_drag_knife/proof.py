@@ -9,7 +9,7 @@ import shapely
 
 from mechwright import Outline
 
-NEAR, STEP = 0.05, 0.05
+NEAR, STEP = 0.05, 0.01
 """How far the tip may stray from a contour, and the step in which it is drawn along, mm."""
 _WORD = re.compile(r"([GXYZFM])([-+]?[0-9.]+)")
 
