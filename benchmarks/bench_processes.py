@@ -11,6 +11,7 @@ mechanism with walls as the programs leave them. Solids are not compared. FOLDER
 import argparse
 import json
 import re
+import shutil
 import tempfile
 import time
 import tomllib
@@ -30,7 +31,7 @@ from mechwright.pipeline import PROGRAMS, Build, Run, Wanted, Work
 from mechwright.pipeline.as_made import as_made, made_plates
 from mechwright.pipeline.page import pages_of
 from mechwright.plugins.host import host
-from mechwright_cut.cutting import Cutting
+from mechwright_cut.cutting import Cutting, ProvenCut, written
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 WORK = Work(Stage.OUTPUT, frozenset({PROGRAMS}))
@@ -81,17 +82,17 @@ class Row:
     seconds: float = 0.0
 
 
-def written(process: str, family: str, folder: Path) -> Path:
+def design_file(process: str, family: str, folder: Path) -> Path:
     """The file of a case: the example with another process, without what was chosen for the mill."""
     name, sizes = FAMILIES[family]
     table, material, _ = PROCESSES[process]
     content = tomllib.loads((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
     content = {key: value for key, value in content.items() if key not in ("cam", "machine")}
     content |= {"process": process, "cut": dict(table)}
-    if "drawing" in content["parameters"]:
-        content["parameters"]["drawing"] = str(EXAMPLES / content["parameters"]["drawing"])
     path = folder / process / family / "design.toml"
     path.parent.mkdir(parents=True, exist_ok=True)
+    if "drawing" in content["parameters"]:
+        shutil.copy(EXAMPLES / content["parameters"]["drawing"], path.parent)
     path.write_text(tomlkit.dumps(content), encoding="utf-8")
     design = load(path, host())
     fields = type(design.params).model_fields
@@ -107,7 +108,7 @@ def made(case: str, folder: Path) -> Row:
     process, _, family = case.partition("/")
     row, began = Row(case), time.perf_counter()
     try:
-        design = load(written(process, family, folder), host())
+        design = load(design_file(process, family, folder), host())
         for _ in range(ROUNDS + 1):
             with Build(design, host(), Wanted("cut", work=WORK)) as build:
                 run = Run(build, WORK)
@@ -123,6 +124,9 @@ def made(case: str, folder: Path) -> Row:
                     continue
                 row.answer = "yes"
                 _count(row, build)
+                for one in build.made(Cutting).programs:
+                    if one.suffix == ".nc":
+                        files.add(f"{one.name}.ngc", written_for(one))
                 write_folder(folder / process / family / "out", files, "cut", {})
                 break
         else:
@@ -131,6 +135,13 @@ def made(case: str, folder: Path) -> Row:
         row.answer = str(error)
     row.seconds = round(time.perf_counter() - began, 1)
     return row
+
+
+def written_for(item: ProvenCut) -> str:
+    """The same sheet for LinuxCNC, proven."""
+    text, proof = written(item.job, item.contours, "linuxcnc-beam")
+    assert proof.ok, proof.failures
+    return text
 
 
 def _change(wrong: Sequence[Finding]) -> dict[str, Any]:
