@@ -33,8 +33,8 @@ from mechwright_cut.proof.swept import runs, way
 NEAR = 0.002
 """Ends of moves are the same to this, mm: Grbl's floats and four decimals."""
 ALONG = 0.008
-"""The ways are the same to this, mm. Grbl makes chords of arcs, by $12 = 0.002 mm beside them, and rounds their
-number down: an arc of almost two chords becomes one, which is four times as far beside it."""
+"""The ways are the same to this, mm. Grbl makes chords of arcs, by $12 = 0.002 mm beside them, and rounds
+their number down: an arc of almost two chords becomes one, which is four times as far beside it."""
 
 
 def by_grbl(binary: Path, program: Path) -> list[str]:

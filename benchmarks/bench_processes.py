@@ -28,7 +28,7 @@ from mechwright.designs.design import load
 from mechwright.errors import MechwrightError
 from mechwright.output.folder import write_folder
 from mechwright.pipeline import PROGRAMS, Build, Run, Wanted, Work
-from mechwright.pipeline.as_made import as_made, made_plates
+from mechwright.pipeline.as_made import as_made, produced_plates
 from mechwright.pipeline.page import pages_of
 from mechwright.plugins.host import host
 from mechwright_cut.cutting import Cutting, ProvenCut, written
@@ -78,7 +78,7 @@ class Row:
     programs: int = 0
     pieces: int = 0
     metres: float = 0.0
-    made: str = ""
+    walls: str = ""
     seconds: float = 0.0
 
 
@@ -103,7 +103,7 @@ def design_file(process: str, family: str, folder: Path) -> Path:
     return path
 
 
-def made(case: str, folder: Path) -> Row:
+def tried(case: str, folder: Path) -> Row:
     """The case, after the changes that its errors propose."""
     process, _, family = case.partition("/")
     row, began = Row(case), time.perf_counter()
@@ -162,10 +162,10 @@ def _count(row: Row, build: Build) -> None:
         max(1, len(one.part.instances)) for one in cutting.ordered
     )
     row.metres = round(sum(one.proof.length for one in cutting.programs) / 1000, 2)
-    plates, said = build.made(made_plates), build.made(as_made)
+    plates, said = build.made(produced_plates), build.made(as_made)
     worst = max((float(abs(part.off).max()) for parts in plates.values() for part in parts), default=0.0)
     judged = f"{len(said.figures)} figures" if said.figures else "not judged"
-    row.made = f"{judged}, walls within {1000 * worst:.1f} µm" if plates else "not judged"
+    row.walls = f"{judged}, walls within {1000 * worst:.1f} µm" if plates else "not judged"
 
 
 def main() -> None:
@@ -179,7 +179,7 @@ def main() -> None:
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as other:
         for case in args.cases:
-            print(json.dumps(asdict(made(case, args.into or Path(other))), ensure_ascii=False), flush=True)
+            print(json.dumps(asdict(tried(case, args.into or Path(other))), ensure_ascii=False), flush=True)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.made_part import MadePart
 from mechwright.contracts.part import Part
-from mechwright.pipeline import PROGRAMS, Build
+from mechwright.pipeline import Build
 from mechwright.pipeline.process import MILL, Process
 
 
@@ -21,11 +21,11 @@ class Milling(Process):
 
     def objections(self, part: Part, build: Build) -> Sequence[Finding]:
         """What cutters and control find of it; also of a plate that another process makes."""
-        from mechwright_cam.planning.trial import MillingTrial
+        from mechwright_cam.milling_trial import MillingTrial
 
         return build.made(MillingTrial).findings(part.name)
 
-    def made(self, part: Part, build: Build) -> Sequence[MadePart]:
+    def produced(self, part: Part, build: Build) -> Sequence[MadePart]:
         """The walls of the posted text; nothing where one is not cut."""
         from mechwright_cam.as_made import AsMadeParts
 
@@ -38,12 +38,13 @@ class Milling(Process):
         return f"set the wear of D{of} {-off:+.4f} mm from where it is, as a radius"
 
     def seconds(self, part: Part, build: Build) -> float | None:
-        """The proof's time where the run makes programs; else by the area that the chosen cutters clear."""
+        """The proof's time where the run has made programs, else the planner's estimate."""
         from mechwright_cam.machining import Machining
-        from mechwright_cam.planning.trial import MillingTrial
+        from mechwright_cam.milling_trial import MillingTrial
 
-        if PROGRAMS in build.wanted.extent.makes:
-            found = [one for one in build.made(Machining).proven_programs if one.job.part.name == part.name]
+        machining = build.made(Machining)
+        if "proven_programs" in vars(machining):  # a check that makes nothing makes none for a time
+            found = [one for one in machining.proven_programs if one.job.part.name == part.name]
             if found:
                 return sum(one.proof.time_estimate_s for one in found)
         return build.made(MillingTrial).seconds(part.name)

@@ -44,7 +44,7 @@ class Cut(Process):
         process = cut_settings(build.design).kind(self.name, part.material)
         return Spread(process.size, process.taper)
 
-    def made(self, part: Part, build: Build) -> Sequence[MadePart]:
+    def produced(self, part: Part, build: Build) -> Sequence[MadePart]:
         """The walls of the text, and the taper; nothing of a service."""
         from mechwright_cut.as_cut import plates_as_cut
 

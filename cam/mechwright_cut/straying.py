@@ -11,7 +11,7 @@ from mechwright.pipeline.tolerances.compared import ComparedOutput, compared
 from mechwright_cut.cutting import Cutting
 from mechwright_cut.settings.figures import Process
 
-MAKING = running.Making(
+WORDING = running.Wording(
     code="cut",
     parts="mechanisms of cut plates",
     key="process",
@@ -36,7 +36,7 @@ class StrayingCuts:
 def running_findings(build: Build) -> Iterator[Finding]:
     """Plays that jam, errors beyond limits, and teeth with less backlash than the process wants."""
     made = build.made(StrayingCuts)
-    yield from running.running_rule(build, MAKING, made.outputs)
+    yield from running.running_rule(build, WORDING, made.outputs)
     if made.processes:
         need = max(one.backlash for one in made.processes)
-        yield from running.backlash_rule(build, MAKING, made.outputs, need)
+        yield from running.backlash_rule(build, WORDING, made.outputs, need)

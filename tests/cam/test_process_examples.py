@@ -7,7 +7,7 @@ from by_night import by_night
 
 from mechwright.contracts.finding import Severity, Stage
 from mechwright.pipeline import PROGRAMS, Build, Run, Wanted, Work
-from mechwright.pipeline.as_made import as_made, made_plates
+from mechwright.pipeline.as_made import as_made, produced_plates
 from mechwright.pipeline.page import pages_of
 from mechwright.plugins.host import host
 
@@ -39,6 +39,6 @@ def test_an_example_is_proven_and_runs_as_made(name):
         assert set(files.files) == FILES[name]
         assert [one for one in run.findings if one.severity is not Severity.NOTE] == []
         assert len(build.made(as_made).figures) == JUDGED[name]
-        plates = build.made(made_plates)
+        plates = build.made(produced_plates)
         assert bool(plates) is bool(JUDGED[name])
         assert all(abs(part.off).max() < 0.005 for parts in plates.values() for part in parts)

@@ -141,23 +141,17 @@ def _webs(cut: CutPart, process: Process) -> Iterator[Finding]:
 
 
 def _sharpest(cut: CutPart, process: Process, kerf: float) -> float:
-    """The most that stays in an inside corner, mm: R(1/sin(a/2) - 1) of one of the angle a."""
+    """The most that stays in an inside corner, mm: R(1/sin(a/2) - 1) of one of the angle a; 0 below FELT."""
     radius = max(process.corner, kerf / 2)
     shape = cut.outline.polygon()
     closed = shapely.buffer(shapely.buffer(shape, radius, quad_segs=32), -radius, quad_segs=32)
-    rest = [
-        one
-        for one in shapely.get_parts(shapely.difference(closed, shape))
-        if one.area > 0 and not _is_opening(one, shape)
-    ]
-    return max(
-        (
-            float(shapely.distance(shapely.Point(at), closed.boundary))
-            for one in rest
-            for at in one.exterior.coords
-        ),
-        default=0.0,
-    )
+    parts = shapely.get_parts(shapely.difference(closed, shape))
+    # A corner that keeps d has an area above d²; the rest is rounding along arcs.
+    rest = [one for one in parts[shapely.area(parts) > FELT**2 / 2] if not _is_opening(one, shape)]
+    if not rest:
+        return 0.0
+    ends = shapely.points(shapely.get_coordinates(rest))
+    return float(shapely.distance(ends, shapely.boundary(closed)).max())
 
 
 def _is_opening(rest: shapely.Polygon, shape: shapely.Polygon) -> bool:

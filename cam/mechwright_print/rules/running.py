@@ -10,9 +10,9 @@ from mechwright_print.job.print_job import PrintJob
 from mechwright_print.rules.holes import MEASURE
 
 
-def _making(job: PrintJob) -> running.Making:
+def _wording(job: PrintJob) -> running.Wording:
     measured = job.printer.measured
-    return running.Making(
+    return running.Wording(
         code="print",
         parts="prints",
         key="print.fits",
@@ -26,12 +26,12 @@ def _making(job: PrintJob) -> running.Making:
 def backlash_rule(build: Build, job: PrintJob) -> Iterator[Finding]:
     """Teeth have more backlash than their flanks scatter, where the family does not analyse it."""
     need = job.printer.scatter("wall", "wall")
-    yield from running.backlash_rule(build, _making(job), build.made(AsPrinted).outputs, need)
+    yield from running.backlash_rule(build, _wording(job), build.made(AsPrinted).outputs, need)
 
 
 def running_rule(build: Build, job: PrintJob) -> Iterator[Finding]:
     """What the family's analysis says of prints that jam, or miss what is asked by more than they may."""
-    yield from running.running_rule(build, _making(job), build.made(AsPrinted).outputs)
+    yield from running.running_rule(build, _wording(job), build.made(AsPrinted).outputs)
 
 
 RUNNING = (backlash_rule, running_rule)

@@ -12,13 +12,13 @@ from mechwright.pipeline.process import Process, plates_of, process_of
 from mechwright.pipeline.work import PROGRAMS
 
 
-def made_plates(build: Build) -> dict[str, list[MadePart]]:
+def produced_plates(build: Build) -> dict[str, list[MadePart]]:
     """The copies of each plate as made, by its name; empty where one of them is not known."""
     known = {one.name: one for one in build.host.all(Process)}
     found: dict[str, list[MadePart]] = {}
     for part in plates_of(build.parts):
         process = known.get(process_of(build.design, part.name))
-        copies = () if process is None else process.made(part, build)
+        copies = () if process is None else process.produced(part, build)
         if not copies:
             return {}
         found[part.name] = list(copies)
@@ -30,7 +30,7 @@ def as_made(build: Build) -> AsMade:
 
     Raises what making their programs does.
     """
-    plates = build.made(made_plates)
+    plates = build.made(produced_plates)
     if not plates:
         return AsMade()
     design = build.design

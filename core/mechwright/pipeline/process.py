@@ -82,7 +82,7 @@ class Process(Plugin):
         """How far the plate strays; None, the default, where a proof bounds its walls."""
         return None
 
-    def made(self, part: "Part", build: Build) -> "Sequence[MadePart]":  # noqa: ARG002 - for those that know
+    def produced(self, part: "Part", build: Build) -> "Sequence[MadePart]":  # noqa: ARG002 - for those that know
         """Each copy of a plate as its program leaves it; by default nothing, and nothing is judged by it."""
         return ()
 

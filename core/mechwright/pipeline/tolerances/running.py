@@ -20,7 +20,7 @@ STEP = 0.05
 
 
 @dataclass(frozen=True)
-class Making:
+class Wording:
     """How findings about parts of one process are worded.
 
     Parameters
@@ -51,7 +51,7 @@ class Making:
 
 
 def backlash_rule(
-    build: Build, making: Making, outputs: Sequence[ComparedOutput], need: float
+    build: Build, wording: Wording, outputs: Sequence[ComparedOutput], need: float
 ) -> Iterator[Finding]:
     """Teeth have more backlash than their flanks need, mm, where the family does not analyse it."""
     params = build.design.params
@@ -63,71 +63,71 @@ def backlash_rule(
     said = "a backlash for milled gears" if backlash is None else f"{backlash:g} mm of backlash"
     made = round(math.ceil(need / STEP - TOLERANCES.slack) * STEP, 3)
     change: Change = {"parameters.backlash": made}
-    yield making.kind(
-        f"{making.code}.backlash",
+    yield wording.kind(
+        f"{wording.code}.backlash",
         "parameters.backlash",
-        f"the flanks have {said}, and those of two {making.parts} want {need:.2f} mm: they may jam",
+        f"the flanks have {said}, and those of two {wording.parts} want {need:.2f} mm: they may jam",
         backlash,
         need,
         "mm",
-        f"set backlash = {made:g}{making.tail}",
+        f"set backlash = {made:g}{wording.tail}",
         proposed=(change,),
     )
 
 
-def running_rule(build: Build, making: Making, outputs: Sequence[ComparedOutput]) -> Iterator[Finding]:
+def running_rule(build: Build, wording: Wording, outputs: Sequence[ComparedOutput]) -> Iterator[Finding]:
     """What the family's analysis says of parts that jam, or miss what is asked by more than they may."""
     broken = [one for one in outputs if not one.is_kept]
     jamming = [one for one in broken if one.output.stays_above]
     if jamming:
-        yield _jam(build, making, min(jamming, key=lambda one: one.kept or 0.0), len(jamming))
+        yield _jam(build, wording, min(jamming, key=lambda one: one.kept or 0.0), len(jamming))
     for one in broken:
         if not one.output.stays_above:
-            yield _miss(making, one)
+            yield _miss(wording, one)
 
 
-def _jam(build: Build, making: Making, one: ComparedOutput, count: int) -> Finding:
+def _jam(build: Build, wording: Wording, one: ComparedOutput, count: int) -> Finding:
     """One finding for all plays: the same room helps them."""
     unit, more = one.output.unit, f", and {count - 1} more" if count > 1 else ""
-    tighter, rooms = making.tighter, _rooms(build)
+    tighter, rooms = wording.tighter, _rooms(build)
     proposed = (*rooms, *([tighter] if tighter else []), *({**room, **tighter} for room in rooms if tighter))
-    return making.kind(
-        f"{making.code}.as-made",
-        next(iter(rooms[0])) if rooms else making.key,
-        f"{percent(1 - (one.kept or 0.0))} of the {making.parts} jam: 99.73 % have {one.output.name} above "
+    return wording.kind(
+        f"{wording.code}.as-made",
+        next(iter(rooms[0])) if rooms else wording.key,
+        f"{percent(1 - (one.kept or 0.0))} of the {wording.parts} jam: 99.73 % have {one.output.name} above "
         f"{shown(one.half, unit)} {shown_unit(unit)}{more}",
         one.half,
         0.0,
         unit,
-        (_words(proposed, making) or making.otherwise) + making.tail,
+        (_words(proposed, wording) or wording.otherwise) + wording.tail,
         proposed=proposed,
     )
 
 
-def _miss(making: Making, one: ComparedOutput) -> Finding:
+def _miss(wording: Wording, one: ComparedOutput) -> Finding:
     unit = one.output.unit
-    proposed = () if making.tighter is None else (making.tighter,)
-    return making.kind(
-        f"{making.code}.error",
-        making.key,
-        f"{percent(1 - (one.kept or 0.0))} of the {making.parts} miss {one.output.name} by more than "
+    proposed = () if wording.tighter is None else (wording.tighter,)
+    return wording.kind(
+        f"{wording.code}.error",
+        wording.key,
+        f"{percent(1 - (one.kept or 0.0))} of the {wording.parts} miss {one.output.name} by more than "
         f"{shown(one.limit or 0.0, unit)} {shown_unit(unit)}; 99.73 % stay within {shown(one.half, unit)}",
         one.half,
         one.limit,
         unit,
-        (_words(proposed, making) or making.otherwise) + making.tail,
+        (_words(proposed, wording) or wording.otherwise) + wording.tail,
         proposed=proposed,
     )
 
 
-def _words(proposed: tuple[Change, ...], making: Making) -> str:
+def _words(proposed: tuple[Change, ...], wording: Wording) -> str:
     """The first change as a line to type."""
     if not proposed:
         return ""
     said = []
     for key, value in proposed[0].items():
         table, _, name = key.partition(".")
-        said.append(f"{name} = {toml(value)}" + (f" in [{table}]" if table == making.code else ""))
+        said.append(f"{name} = {toml(value)}" + (f" in [{table}]" if table == wording.code else ""))
     return f"set {' and '.join(said)}"
 
 

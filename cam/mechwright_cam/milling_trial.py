@@ -9,6 +9,7 @@ from functools import cached_property
 from mechwright.contracts.finding import Finding, errors
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import plates_of
+from mechwright_cam.machining import Machining
 from mechwright_cam.operations.contract import Operation, Task
 from mechwright_cam.operations.ladder import change_time, ladder, recess_ladder
 from mechwright_cam.operations.rates import rates
@@ -27,12 +28,12 @@ class MillingTrial:
         self._build = build
 
     @cached_property
-    def _assignments(self) -> Assignments:
-        return Assignments(self._build.host.all(Operation))
-
-    @cached_property
-    def _prepared(self) -> tuple[list[Finding], list[Job]]:
-        return prepare(self._build.design, plates_of(self._build.parts), self._assignments)
+    def _prepared(self) -> tuple[Sequence[Finding], Sequence[Job], Assignments]:
+        plates, machining = plates_of(self._build.parts), self._build.made(Machining)
+        if machining.plates == plates:
+            return machining.findings, machining.jobs, machining.assignments
+        assignments = Assignments(self._build.host.all(Operation))
+        return *prepare(self._build.design, plates, assignments), assignments
 
     def _jobs(self, name: str) -> list[Job]:
         return [job for job in self._prepared[1] if name in _names(job)]
@@ -56,7 +57,7 @@ class MillingTrial:
         return sum(self._work(job) / max(len(_names(job)), 1) for job in jobs)
 
     def _work(self, job: Job) -> float:
-        tasks = [task for task in self._assignments.of(job).tasks if not task.is_detail]
+        tasks = [task for task in self._prepared[2].of(job).tasks if not task.is_detail]
         holes = [task.hole.drill for task in tasks if task.hole is not None]
         used = {tool.name for tool in (*holes, *(tool for task in tasks for tool in task.tools))}
         return len(used) * change_time(job) + sum(_task_time(task, job) for task in tasks)
