@@ -9,16 +9,15 @@ from mechwright.errors import DesignError
 from mechwright.mechanics.tolerance import Analysis, analyse, check_keys
 from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
-from mechwright.pipeline.tolerances.by_process import analysed, tolerances_for
-from mechwright.pipeline.tolerances.table import TolerancesTable
+from mechwright.pipeline.tolerances.by_process import (
+    SpreadTolerances,
+    analysed,
+    tolerances_for,
+    tolerances_of,
+)
 
 KEYS = "tolerances.key"
 """Code of the finding that a key of ``[tolerances]`` cannot be obeyed."""
-
-
-def tolerances_of(build: Build) -> Tolerances:
-    """What the design says of tolerances."""
-    return build.design.table(TolerancesTable)
 
 
 def model_of(build: Build) -> ToleranceModel | None:
@@ -44,7 +43,7 @@ def analysis_of(build: Build) -> Analysis | None:
     Raises as :func:`model_of` does.
     """
     tolerances = tolerances_for(build, build.parts)
-    if tolerances is tolerances_of(build):
+    if not isinstance(tolerances, SpreadTolerances):
         return build.made(drawn_analysis)
     return None if model_of(build) is None else analysed(build, tolerances)
 

@@ -48,6 +48,12 @@ class SpreadTolerances(Tolerances):
         )
 
 
+def tolerances_of(build: Build) -> Tolerances:
+    """What the design says of tolerances."""
+    value: Tolerances = build.design.tables.get(TolerancesTable.name, Tolerances())
+    return value
+
+
 def worst_spread(spreads: Iterable[Spread | None]) -> Spread | None:
     """The worst of each figure; None where no plate strays.
 
@@ -90,7 +96,7 @@ def with_spread(asked: Tolerances, spread: Spread, *, over: bool = False) -> Spr
 
 def tolerances_for(build: Build, parts: Iterable[Part]) -> Tolerances:
     """The tolerances of some plates: the design's own, those of their processes where it leaves them out."""
-    asked = build.design.table(TolerancesTable)
+    asked = tolerances_of(build)
     said = asked.settings.general
     if said != "process" and "general" in asked.settings.model_fields_set:
         return asked
