@@ -39,7 +39,7 @@ ROUNDS = 10
 """Changes at most."""
 ACRYLIC: dict[str, Any] = {"parameters.material": "acrylic"}
 STEEL: dict[str, Any] = {"parameters.material": "steel"}
-SIX = {
+SIX: dict[str, Any] = {
     f"parameters.{key}": 6.0
     for key in ("thickness", "ground_thickness", "follower_thickness", "gear_thickness", "crank_thickness")
 }
@@ -51,13 +51,13 @@ FAMILIES = {
     "geneva": ("geneva-straight", {**SIX, "parameters.thickness": 4.0}),
     "linkage": ("linkages/hoecken", SIX),
     "noncircular-gears": ("noncircular-lobes", SIX),
-    "plate": ("nema-17-plate", SIX),
+    "plate": ("inch-bracket", {"parameters.thickness": "6 mm"}),
     "slider-crank": ("slider-crank-quick-return", SIX),
     "spherical": ("spherical-crank-rocker", SIX),
     "spur-gears": ("spur-gears", SIX),
 }
 """Family to its first example, and the plates of a sheet of 6 mm; a locking disc is 2 mm thicker."""
-MAKE = re.compile(r"make (\w+) ([0-9.]+)")
+MAKE = re.compile(r"make ([\w.]+) ([0-9.]+)")
 """How some remedies name a key and its value."""
 WIRE = ("elliptic-gears", "noncircular-gears", "spur-gears", "geneva", "cam-follower")
 PROCESSES: dict[str, tuple[Mapping[str, Any], dict[str, Any], tuple[str, ...]]] = {
@@ -99,6 +99,9 @@ def design_file(process: str, family: str, folder: Path) -> Path:
     change = {key: value for key, value in (material | sizes).items() if key.partition(".")[2] in fields}
     for key, value in change.items():
         content["parameters"][key.partition(".")[2]] = value
+    if family == "spherical":
+        content["parameters"]["hardware"] = {"material": material["parameters.material"]}
+        content["parameters"]["stand"] = {"plate_thickness": 6.0}
     path.write_text(tomlkit.dumps(content), encoding="utf-8")
     return path
 
