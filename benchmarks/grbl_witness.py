@@ -41,7 +41,9 @@ LENGTH = 0.003
 
 def moves_of_grbl(binary: Path, program: Path) -> tuple[str, np.ndarray]:
     """What Grbl objects to, empty if nothing, and (n, 5) x, y, z, feed and whether it is a rapid."""
-    done = subprocess.run([binary, program], capture_output=True, text=True, check=False)
+    with tempfile.TemporaryDirectory() as folder:  # it keeps a file of settings where it runs
+        command = [binary.resolve(), program.resolve()]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode:
         return next((line for line in done.stdout.splitlines() if "rror" in line), "refused"), np.empty(
             (0, 5)

@@ -68,6 +68,7 @@ def test_the_table_as_json(run, tmp_path):
         "to",
         "unmade",
         "findings",
+        "processes",
     }
 
 

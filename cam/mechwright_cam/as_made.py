@@ -1,14 +1,14 @@
 """The parts of a build as its programs leave them, and what the family says of a mechanism of such parts."""
 
-from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from mechwright.contracts.as_made import AsMade
-from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
+from mechwright.contracts.finding import Finding, Severity, Stage
 from mechwright.contracts.made_part import MadePart
 from mechwright.pipeline import Build
+from mechwright.pipeline.as_made import as_made
 from mechwright.tolerances import TOLERANCES
 from mechwright_cam.machining import Machining
 from mechwright_cam.proof.as_made_parts import parts_as_made, placed_in, with_undersides
@@ -38,17 +38,16 @@ class AsMadeParts:
         return found
 
     @cached_property
+    def open(self) -> tuple[Finding, ...]:
+        """What keeps the parts from being judged: walls that are not cut."""
+        return tuple(finding for part in self.parts for finding in not_closed(part))
+
+    @cached_property
     def analysis(self) -> AsMade:
         """What the family says, with what keeps the parts from being judged."""
-        open_ = [finding for part in self.parts for finding in not_closed(part)]
-        if open_ or not self.parts:
-            return AsMade(findings=tuple(open_))
-        copies: dict[str, list[MadePart]] = {}
-        for part in self.parts:
-            copies.setdefault(part.name, []).append(part)
-        design = self._build.design
-        said = design.family.as_made(design.params, copies)
-        return replace(said, findings=tuple(at_stage(Stage.OUTPUT, said.findings)))
+        if self.open or not self.parts:
+            return AsMade(findings=self.open)
+        return self._build.made(as_made)
 
 
 def not_closed(part: MadePart) -> list[Finding]:

@@ -44,23 +44,23 @@ class Proven(Inspection):
         return ()
 
 
-class Running(Inspection):
-    """What the family says of the mechanism with its parts as the programs leave them."""
+class OpenWalls(Inspection):
+    """Whether the programs leave each part an outline by which the mechanism can be judged."""
 
-    name = "as-made"
+    name = "open-walls"
     process = MILL
     stage = Stage.OUTPUT
     needs = frozenset({PROGRAMS})
     order = 40
     limited = False
     doing = "parts as made"
-    share = 50.0
+    share = 20.0
 
     def findings(self, build: Build) -> Sequence[Finding]:
-        """What keeps it from being put together, or from turning."""
+        """Walls that are not cut."""
         from mechwright_cam.as_made import AsMadeParts
 
-        return build.made(AsMadeParts).analysis.findings
+        return build.made(AsMadeParts).open
 
 
 class InHand(Inspection):

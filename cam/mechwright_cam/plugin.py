@@ -14,7 +14,7 @@ def mechwright_register() -> list[type[Plugin]]:
     from mechwright_cam.controls.linuxcnc import LinuxCnc
     from mechwright_cam.controls.mach3 import Mach3
     from mechwright_cam.controls.siemens_840d import Siemens840D
-    from mechwright_cam.inspection import InHand, Machinable, Proven, Running
+    from mechwright_cam.inspection import InHand, Machinable, OpenWalls, Proven
     from mechwright_cam.pages.as_made import AsMadeFiles
     from mechwright_cam.pages.blanks import MilledPlates
     from mechwright_cam.pages.certificate import Certificates
@@ -38,7 +38,7 @@ def mechwright_register() -> list[type[Plugin]]:
         Machinable,
         InHand,
         Proven,
-        Running,
+        OpenWalls,
         Programs,
         Minutes,
     ]

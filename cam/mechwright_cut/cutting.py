@@ -18,7 +18,7 @@ from mechwright_cut.programs.iso_wire import iso_wire
 from mechwright_cut.programs.linuxcnc_beam import linuxcnc_beam
 from mechwright_cut.proof.judge import CutProof, Question, TargetPiece, prove
 from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
-from mechwright_cut.rules.part_rules import part_findings, refused
+from mechwright_cut.rules.part_rules import loses, part_findings, refused
 from mechwright_cut.service.services import services
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
 from mechwright_cut.settings.cut_table import cut_settings
@@ -77,6 +77,7 @@ def question(job: CutJob, control: str) -> Question:
         full=float(settings.full_power),
         passes=settings.passes,
         joint_width=settings.joint_width,
+        taper=job.process.taper,
         refused="" if why is None or lifted else why.why,
     )
 
@@ -137,13 +138,31 @@ class Cutting:
         found = []
         for name, parts in self.plates.items():
             for part in parts:
-                process = self.settings.kind(name, part.material)
-                kerf = self.kerf(process, part)
+                process, kerf = self._by(name, part)
                 if kerf is not None and self._may(name, process, part):
-                    rules = services()[self.settings.service]
-                    marks = rules.engraves if name == SERVICE else process.engraves
-                    found.append((name, process, kerf, cut_part(part, process, self.settings, marks=marks)))
+                    found.append((name, process, kerf, self._cut_part(name, process, part)))
         return found
+
+    def _by(self, name: str, part: Part) -> tuple[Process, Kerf | None]:
+        process = self.settings.kind(name, part.material)
+        return process, self.kerf(process, part)
+
+    def _cut_part(self, name: str, process: Process, part: Part) -> CutPart:
+        marks = services()[self.settings.service].engraves if name == SERVICE else process.engraves
+        return cut_part(part, process, self.settings, marks=marks)
+
+    def rules_of(self, name: str, part: Part) -> list[Finding]:
+        """What the rules find of a plate by a process that does not refuse it, chosen or not."""
+        process, kerf = self._by(name, part)
+        if kerf is None:
+            return [_no_kerf(process, part)]
+        return [*part_findings(self._cut_part(name, process, part), process, kerf.width, self.settings)]
+
+    def losses_of(self, name: str, part: Part) -> list[str]:
+        """What a plate has less of than as drawn by a process, in a few words each."""
+        process, kerf = self._by(name, part)
+        width = 0.0 if kerf is None else kerf.width
+        return [*loses(self._cut_part(name, process, part), process, width)]
 
     @cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -156,14 +175,9 @@ class Cutting:
             for process in kinds.values():
                 yield from _wrong_settings(self.settings, name, process)
             for part in parts:
-                process = self.settings.kind(name, part.material)
-                if self.kerf(process, part) is None and self._may(name, process, part):
-                    yield _error(
-                        "cut.kerf",
-                        "cut.kerf",
-                        f"no table has the kerf of {process.words} in {part.material} {part.thickness:g} mm",
-                        "cut one square, measure it, and set cut.kerf = 0.2, or what you find",
-                    )
+                process, kerf = self._by(name, part)
+                if kerf is None and self._may(name, process, part):
+                    yield _no_kerf(process, part)
         for _, process, kerf, cut in self.cut_parts:
             yield from part_findings(cut, process, kerf.width, self.settings)
         yield from self._planned[1]
@@ -244,6 +258,15 @@ class Cutting:
 
 def _error(code: str, key: str, message: str, remedy: str) -> Finding:
     return Finding.error(code, key, message, remedy=remedy, stage=Stage.MACHINING)
+
+
+def _no_kerf(process: Process, part: Part) -> Finding:
+    return _error(
+        "cut.kerf",
+        "cut.kerf",
+        f"no table has the kerf of {process.words} in {part.material} {part.thickness:g} mm",
+        "cut one square, measure it, and set cut.kerf = 0.2, or what you find",
+    )
 
 
 def _wrong_settings(settings: CutSettings, name: str, process: Process) -> Iterator[Finding]:

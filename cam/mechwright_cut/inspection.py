@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.finding import Finding, Stage, at_stage
 from mechwright.contracts.part import Part
 from mechwright.pipeline import PROGRAMS, Build, Inspection
 from mechwright.pipeline.process import Process
@@ -20,6 +20,7 @@ class Cuttable(Inspection):
     def findings(self, build: Build) -> Sequence[Finding]:
         """What forbids or hampers cutting; of each plate that is cut, its time and what it loses."""
         from mechwright_cut.cutting import Cutting
+        from mechwright_cut.straying import running_findings
 
         cutting = build.made(Cutting)
         known = {one.name: one for one in build.host.all(Process)}
@@ -29,7 +30,8 @@ class Cuttable(Inspection):
             for part in parts
             if name in known and not known[name].refuses(part, build)
         ]
-        return [*cutting.findings, *notes]
+        running = at_stage(Stage.MACHINING, running_findings(build))
+        return [*cutting.findings, *running, *notes]
 
 
 def _summary(part: Part, process: Process, build: Build) -> str:
@@ -38,24 +40,6 @@ def _summary(part: Part, process: Process, build: Build) -> str:
     time = "" if seconds is None else f" takes about {max(seconds / 60, 0.1):.1f} min, and"
     lost = "; ".join(process.loses(part, build))
     return f"{part.name}: {process.title}{time} gives {lost}"
-
-
-class RunningAsCut(Inspection):
-    """What the family says of the mechanism with its parts as cut."""
-
-    name = "as-cut"
-    stage = Stage.OUTPUT
-    needs = frozenset({PROGRAMS})
-    order = 41
-    limited = False
-    doing = "parts as made"
-    share = 10.0
-
-    def findings(self, build: Build) -> Sequence[Finding]:
-        """What keeps it from being put together, or from turning."""
-        from mechwright_cut.as_cut import as_cut
-
-        return build.made(as_cut).findings
 
 
 class ProvenCuts(Inspection):

@@ -2,9 +2,11 @@
 
 from collections.abc import Sequence
 
+from mechwright.contracts.finding import Finding
+from mechwright.contracts.made_part import MadePart
 from mechwright.contracts.part import Part
 from mechwright.pipeline import Build
-from mechwright.pipeline.process import Process
+from mechwright.pipeline.process import Process, Spread, process_of
 
 
 class Cut(Process):
@@ -23,12 +25,30 @@ class Cut(Process):
         kind = settings.kind(self.name, part.material)
         return refused(part, kind, settings, service=self.name == SERVICE)
 
+    def objections(self, part: Part, build: Build) -> Sequence[Finding]:
+        """A kerf that no table has; holes, webs, corners and fits."""
+        from mechwright_cut.cutting import Cutting
+
+        return build.made(Cutting).rules_of(self.name, part)
+
     def loses(self, part: Part, build: Build) -> Sequence[str]:
-        """Fits that it does not hold, its tolerance, and the taper."""
-        from mechwright_cut.rules.part_rules import loses
+        """Fits that it does not hold, holes to drill, corners, its tolerance, and the taper."""
+        from mechwright_cut.cutting import Cutting
+
+        return build.made(Cutting).losses_of(self.name, part)
+
+    def spread(self, part: Part, build: Build) -> Spread:
+        """Its tolerance and taper."""
         from mechwright_cut.settings.cut_table import cut_settings
 
-        return list(loses(part, cut_settings(build.design).kind(self.name, part.material)))
+        process = cut_settings(build.design).kind(self.name, part.material)
+        return Spread(process.size, process.taper)
+
+    def produced(self, part: Part, build: Build) -> Sequence[MadePart]:
+        """The walls of the text, and the taper; nothing of a service."""
+        from mechwright_cut.as_cut import plates_as_cut
+
+        return build.made(plates_as_cut).get(part.name, ())
 
     by_material = True
 
@@ -58,12 +78,16 @@ class Cut(Process):
         return f"set kerfs = [{', '.join(rows)}] in [cut]{which} (now {kerf.width:g})"
 
     def seconds(self, part: Part, build: Build) -> float | None:
-        """The way around outside and openings at the feed, as often as it is run, and the pierces."""
+        """The way around outside and openings at the feed, as often as it is run, and the pierces.
+
+        Nobody knows the feed of a process that the design has not chosen, unless its file gives one.
+        """
         from mechwright_cut.settings.cut_table import cut_settings
 
-        if part.outline is None:
-            return None
         settings = cut_settings(build.design)
+        known = "feed" in settings.model_fields_set or process_of(build.design, part.name) == self.name
+        if part.outline is None or not known:
+            return None
         way = float(part.outline.polygon().length)
         pierces = len(part.outline.loops) * settings.pierce
         return settings.passes * (60 * way / settings.feed + pierces)

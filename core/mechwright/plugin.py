@@ -7,6 +7,7 @@ from mechwright.machine.page import DrivePage
 from mechwright.machine.stack_inspection import AxialStacks
 from mechwright.machine.stacks_page import StacksPage
 from mechwright.machine.table import MachineTable
+from mechwright.pipeline.as_made import RunningAsMade
 from mechwright.pipeline.file_names import FileNames
 from mechwright.pipeline.fits import DeclaredFits
 from mechwright.pipeline.process import ChosenProcesses, ProcessTable
@@ -23,6 +24,7 @@ def mechwright_register() -> list[type[Plugin]]:
         MotionTables,
         ProcessTable,
         ChosenProcesses,
+        RunningAsMade,
         FitsTable,
         DeclaredFits,
         TolerancesTable,

@@ -45,6 +45,7 @@ def design_files() -> list[Path]:
         *EXAMPLES.glob("*.toml"),
         *(EXAMPLES / "motion").glob("*.toml"),
         *(EXAMPLES / "chains").glob("*.toml"),
+        *(EXAMPLES / "processes").glob("*.toml"),
         *(EXAMPLES / "linkages").glob("*.toml"),
     ]
     return sorted(found, key=lambda path: path.name)

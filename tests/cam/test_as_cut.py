@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import shapely
-from cut_sheets import beam, copies, plate, sheet_of, toothed
+from cut_sheets import beam, copies, plate, sheet_of, toothed, wire
 from planning_parts import bore
 
 from mechwright_cut.as_cut import parts_as_cut
@@ -29,6 +29,30 @@ def test_walls_stand_where_they_are_drawn(control):
         assert shapely.symmetric_difference(one.outline.shape(), drawn).area < 0.005 * drawn.length
     hole = next(one for one in found if one.name == "plate").hole_at(8.0, 0.0, 3.0)
     assert (hole.x, hole.y, hole.diameter) == pytest.approx((8, 0, 3), abs=0.005)
+
+
+def test_walls_of_a_wire_stand_on_its_contour_with_the_last_register():
+    part = toothed(material="steel", hole=5.0)
+    job = sheet_of(part, process="wire", start_hole=0.5)
+    text, _ = wire(job)
+    (one,) = parts_as_cut(SimpleNamespace(job=job, text=text, suffix=".iso"))
+    assert np.abs(one.off).max() < 0.005
+    # 0.03 mm more than half of the kerf in D stay on every wall, in the bore as well
+    wide = sheet_of(part, process="wire", start_hole=0.5, offsets=[job.kerf.width / 2 + 0.03])
+    (left,) = parts_as_cut(SimpleNamespace(job=wide, text=text, suffix=".iso"))
+    assert left.off == pytest.approx(0.03, abs=0.005)
+    assert left.hole_at(0.0, 0.0, 5.0).diameter == pytest.approx(4.94, abs=0.005)
+    # inside corners stay as round as the wire with its gap
+    assert any(ring.corner.any() for section in one.sections for ring in section.rings)
+
+
+@pytest.mark.parametrize(("process", "taper"), [("waterjet", 0.15), ("wire", 0.005)])
+def test_the_taper_is_part_of_the_corridor(process, taper):
+    job = sheet_of(toothed(material="steel", radius=20.0, hole=8.0), process=process)
+    text, _ = wire(job) if process == "wire" else beam(job, "linuxcnc-beam")
+    suffix = ".iso" if process == "wire" else ".ngc"
+    (one,) = parts_as_cut(SimpleNamespace(job=job, text=text, suffix=suffix))
+    assert one.corridor == pytest.approx(0.005 + taper / 2)
 
 
 def test_a_wall_that_the_text_leaves_elsewhere_is_seen():

@@ -22,7 +22,6 @@ from mechwright.plugins.host import host
 from mechwright.standards.bearings import bearings
 from mechwright.standards.circlips import shaft_circlip
 from mechwright.standards.screws import screw
-from mechwright_cad.assembly_order import heights
 from mechwright_cad.assembly_order.groups import connected
 from mechwright_cad.assembly_order.heights import CELL, Heights
 from mechwright_cad.assembly_order.layers import frame_of, own_layers
@@ -371,16 +370,19 @@ def test_a_body_of_several_pieces_has_the_layers_of_each():
     assert [one.shape.bounds for one in layers] == [(0, 0, 10, 8), (2, 2, 5, 6)]
 
 
-@pytest.mark.parametrize("angle", [0.0, 1.045, 2.0, 3.9, 5.5])
-def test_points_on_a_triangle_leave_no_place_of_a_cell_without_one(angle):
+@pytest.mark.parametrize("angle", [0.0, 0.785, 1.045, 2.0, 3.9, 5.5])
+def test_every_place_that_a_triangle_covers_has_its_height(angle):
     corners = np.array([(0.0, 0.0), (30.0, 0.0), (8.0, 14.0)]) * CELL
     turned = corners @ np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
-    triangle = np.column_stack((turned, [1.0, 2.0, 3.0]))
-    points = np.concatenate(list(heights._covered(triangle[None])), axis=1).T
-    rng = np.random.default_rng(3)
-    shares = rng.dirichlet((1.0, 1.0, 1.0), 400)
-    apart = np.linalg.norm((shares @ turned)[:, None] - points[None, :, :2], axis=2).min(axis=1)
-    assert apart.max() <= CELL / math.sqrt(2)
-    assert len(points) < 2 * 33 * 33  # no more than twice as many each way as there are cells
-    inside = shapely.Polygon(turned).buffer(1e-9 * CELL)
-    assert shapely.contains_xy(inside, points[:, 0], points[:, 1]).all()
+    points = np.column_stack((turned, turned @ (0.3, -0.2)))
+    found = Heights.of(points, np.array([[0, 1, 2]]))
+    triangle = shapely.Polygon(turned)
+    for i, j in np.ndindex(found.low.shape):
+        x, y = (np.array(found.corner) + (i, j)) * CELL
+        place = shapely.box(x, y, x + CELL, y + CELL)
+        if triangle.covers(place):
+            heights = shapely.get_coordinates(place) @ (0.3, -0.2)
+            assert heights.min() - 1e-9 <= found.low[i, j] <= found.high[i, j] <= heights.max() + 1e-9
+        elif not triangle.intersects(place.buffer(1e-9)):
+            assert found.low[i, j] == np.inf
+            assert found.high[i, j] == -np.inf

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from cut_sheets import beam, plate, sheet_of, wire
+from cut_sheets import beam, plate, sheet_of, toothed, wire
 from planning_parts import bore, rounded_box
 
 from mechwright.contracts.part import Part
@@ -66,8 +66,42 @@ def test_a_slot_that_the_kerf_leaves_full_is_found():
     (piece,) = job.pieces
     slotted = Outline(Loop.polygon(slot)).moved(piece.x, piece.y, piece.angle)
     wrong = replace(asked, pieces=(replace(asked.pieces[0], outline=slotted),))
-    (check,) = prove(text, wrong).failures
+    check = prove(text, wrong).failures[0]
     assert "narrower than the kerf" in check.message
+
+
+def test_faces_of_a_jet_differ_and_keep_their_walls():
+    text, asked = beam(
+        sheet_of(toothed(radius=20.0, hole=12.0, material="steel"), process="waterjet"), "linuxcnc-beam"
+    )
+    assert asked.taper == 0.15
+    (good,) = [check for check in prove(text, asked).checks if check.name == "taper"]
+    assert good.message == "the faces differ by up to 0.15 mm"
+    # as wide a taper as the kerf says nothing of the other face
+    (open_,) = [c for c in prove(text, replace(asked, taper=asked.kerf)).checks if c.name == "taper"]
+    assert open_.message.startswith("not judged")
+
+
+def test_a_web_that_the_taper_cuts_through_is_found():
+    """Two windows with 0.4 mm between them: whole in the middle, gone at the face of the wide kerf."""
+    left = Loop.polygon([(-8, -4), (-8, 4), (-0.2, 4), (-0.2, -4)])
+    right = Loop.polygon([(0.2, -4), (0.2, 4), (8, 4), (8, -4)])
+    job = sheet_of(Part("p", Outline(rounded_box(30, 20, 3), (left, right)), 3, "steel"), process="waterjet")
+    text, asked = beam(job, "linuxcnc-beam")
+    assert prove(text, asked).ok
+    assert failing(text, replace(asked, taper=0.3)) == []
+    assert failing(text, replace(asked, taper=0.42)) == ["taper"]
+    finger = Loop.polygon([(0, 0), (20, 0), (20, 20), (12, 20), (12, 34), (11.7, 34), (11.7, 20), (0, 20)])
+    text, asked = beam(sheet_of(Part("p", Outline(finger), 3, "steel"), process="waterjet"), "linuxcnc-beam")
+    assert failing(text, asked) == []
+    (check,) = prove(text, replace(asked, taper=0.35)).failures
+    assert "a finger below the taper of 0.35 mm" in check.message
+
+
+def test_micro_joints_are_wider_than_the_taper():
+    text, asked = beam(sheet_of(PLATE, joints=2, joint_width=0.3))
+    assert prove(text, replace(asked, taper=0.1)).ok
+    assert failing(text, replace(asked, taper=0.15, joint_width=0.15))[-1] == "taper"
 
 
 def wire_faults(text, asked):

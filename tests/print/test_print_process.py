@@ -43,7 +43,8 @@ def test_a_plate_larger_than_the_bed_is_refused_with_the_line_that_mills_it(tmp_
 def test_the_process_tells_what_is_lost_and_how_long_it_takes(tmp_path, request):
     every = build(tmp_path, request, '"print"')
     lost = Printing().loses(every.parts["crank"], every)
-    assert lost[0].startswith("the fits of bore, dowel-1, dowel-2, pin-1: ±0.30 mm")
+    assert lost[0] == "PLA in place of aluminium, and little pull across layers"
+    assert lost[1].startswith("the fits of bore, dowel-1, dowel-2, pin-1: ±0.30 mm")
     times = [Printing().seconds(every.parts[name], every) for name in ("wheel", "crank")]
     assert times[0] > 5 * times[1] > 0
     # a printer that lays down twice as much takes half of the time

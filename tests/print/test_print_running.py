@@ -9,7 +9,9 @@ import tomlkit
 from mechwright.cli.hosting import open_host
 from mechwright.designs.design import load
 from mechwright.pipeline import Build
-from mechwright_print.as_made import MIDDLE, AsPrinted, printed_tolerances
+from mechwright.pipeline.tolerances import TolerancesTable
+from mechwright.pipeline.tolerances.by_process import MIDDLE, with_spread
+from mechwright_print.as_made import AsPrinted, printed_spread
 from mechwright_print.job.print_job import PrintJob
 from mechwright_print.rules.running import ROOM, backlash_rule, running_rule
 
@@ -31,7 +33,8 @@ def build(tmp_path, text: str, printer: dict, parameters: dict | None = None, **
 def test_the_spread_of_the_printer_is_that_of_the_contributors(tmp_path):
     asked = build(tmp_path, GENEVA, {**MEASURED, "uncertainty": {"wall": 0.015}})
     size = 3 * np.hypot(0.02, 0.015)
-    found = printed_tolerances(asked, asked.made(PrintJob))
+    job = asked.made(PrintJob)
+    found = with_spread(asked.design.table(TolerancesTable), printed_spread(job, job.parts), over=True)
     assert found.settings.centre == pytest.approx(MIDDLE * size, abs=1e-6)
     assert found.settings.gouge == found.settings.leftover == pytest.approx(size / 2, abs=1e-6)
     pin = found.pin("roller-pin", 5.0, "H7/g6")

@@ -23,8 +23,8 @@ class PlateDrawings(PartDrawings):
         return part.kind == "plate"
 
     def sheet(self, part: "Part", build: Build, title: "TitleBlock") -> "Sheet":
-        """Plan, edge and tables, with the tolerances of the design."""
-        from mechwright.pipeline.tolerances import TolerancesTable
+        """Plan, edge and tables, with the tolerances of the design, or of the process of the plate."""
+        from mechwright.pipeline.tolerances.by_process import tolerances_for
         from mechwright_cad.plate_drawing.drawing import PlateDrawing, plate_sheet
 
-        return plate_sheet(PlateDrawing(part, build.design.table(TolerancesTable)), title)
+        return plate_sheet(PlateDrawing(part, tolerances_for(build, [part])), title)

@@ -21,6 +21,7 @@ from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cut.proof.reading import Motion, Reading, read_beam
 from mechwright_cut.proof.swept import disc, runs, way
+from mechwright_cut.proof.taper import taper_faults
 
 WALL = TOLERANCES.gouge
 """Largest distance of a cut wall from the outline, mm."""
@@ -47,7 +48,7 @@ class Question:
     """What the proof knows besides the text; lengths in mm.
 
     ``through`` and ``mark`` are the S words of a cut and of a mark, ``refused`` why the material must not be
-    cut, ``passes`` how often each contour is run.
+    cut, ``passes`` how often each contour is run, ``taper`` by how much the faces of a piece may differ.
     """
 
     control: str
@@ -59,6 +60,7 @@ class Question:
     full: float
     passes: int = 1
     joint_width: float = 0.0
+    taper: float = 0.0
     refused: str = ""
 
 
@@ -108,6 +110,7 @@ def prove(text: str, asked: Question) -> CutProof:
         _powers(reading, asked),
         _on_sheet(reading, asked),
         *_pieces(reading, asked),
+        _taper(through, asked),
         _marks(reading, asked),
     ]
     return CutProof(tuple(found), sum(way([m]).length for m in through))
@@ -187,6 +190,20 @@ def _pieces(reading: Reading, asked: Question) -> list[Check]:
         _check("passes", passes),
         *_compared(asked, wanted, loose, left),
     ]
+
+
+def _taper(through: Sequence[Motion], asked: Question) -> Check:
+    """The pieces at both faces; those on micro-joints have joints that are wider than the taper."""
+    if asked.taper >= asked.kerf:
+        said = f"not judged: a taper of {asked.taper:g} mm may be as wide as the kerf"
+        return Check("taper", ok=True, message=said)
+    freed = [(one.name, one.outline.polygon()) for one in asked.pieces if not one.joints]
+    faults = [*taper_faults(through, asked.kerf, asked.taper, asked.sheet, freed)]
+    if len(freed) < len(asked.pieces) and asked.joint_width <= asked.taper:
+        faults.append(
+            f"micro-joints of {asked.joint_width:g} mm end at one face: the taper is {asked.taper:g} mm"
+        )
+    return _check("taper", faults, f"the faces differ by up to {asked.taper:g} mm")
 
 
 def _pierce(first: Motion, every: shapely.Geometry, asked: Question) -> list[str]:

@@ -69,6 +69,22 @@ def prove_wire(text: str, asked: WireQuestion) -> CutProof:
     return CutProof(tuple(found), length)
 
 
+def wire_walls(text: str, registers: Sequence[float]) -> list[shapely.Polygon]:
+    """The contours of a proven program, inside corners as round as the last pass leaves them."""
+    asked = WireQuestion(tuple(registers), 0.0, (0.0, 0.0), ())
+    walls, reach = [], registers[-1]
+    for hole in read_wire(text).holes:
+        ring, _ = _ring(hole, asked)
+        if ring is not None:
+            # The wire runs outside a part, and inside an opening.
+            first = hole.runs[0]
+            sign = 1 if (first.side == 1) != _forth_is_ccw(hole) else -1
+            walls.append(
+                shapely.buffer(shapely.buffer(ring, sign * reach, quad_segs=64), -sign * reach, quad_segs=64)
+            )
+    return walls
+
+
 def _felt(segments: Sequence[object]) -> tuple[tuple[shapely.LineString, bool], ...]:
     return tuple(
         (shapely.LineString(one.flatten(0.01)), one.tag in FELT)  # type: ignore[attr-defined]

@@ -1,7 +1,7 @@
 """Rules of one part: recesses, material, thickness, openings that overlap, holes, webs, corners, fits."""
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, groupby
 
 import shapely
 
@@ -18,6 +18,8 @@ from mechwright_cut.settings.figures import Process, able, greatest_thickness, r
 
 FELT = 0.05
 """A corner that keeps less than this, mm, is not worth a word."""
+WHOLE = 0.9
+"""What fills more than this share of an opening is no corner of it."""
 
 
 def refused(part: Part, process: Process, settings: CutSettings, *, service: bool = False) -> str | None:
@@ -60,12 +62,20 @@ def overlaps(part: Part) -> str | None:
     return None
 
 
-def loses(part: Part, process: Process) -> Iterator[str]:
+def loses(cut: CutPart, process: Process, kerf: float) -> Iterator[str]:
     """What a plate has less of than as drawn."""
-    for bore in fitted_bores(part).values():
-        if not keeps_limits(process, bore) and bore.fit is not None:
-            yield f"{bore.fit.short} of {bore.name}: ± {process.holes:g} mm"
+    opened = [
+        (bore, bore.fit)
+        for bore in fitted_bores(cut.part).values()
+        if bore.fit is not None and not keeps_limits(process, bore)
+    ]
+    for fit, bores in groupby(opened, key=lambda one: one[1].short):
+        yield f"{fit} of {', '.join(bore.name for bore, _ in bores)}: ± {process.holes:g} mm"
+    if drilled := sum(one.startswith("drill ") for one in cut.finishing):
+        yield f"{_count(drilled)} drilled afterwards"
     yield f"lengths ± {process.size:g} mm"
+    if (deep := _sharpest(cut, process, kerf)) > FELT:
+        yield f"inside corners keep up to {deep:.2f} mm"
     if process.taper >= FELT:
         yield f"taper up to {process.taper:g} mm between the faces"
 
@@ -130,19 +140,29 @@ def _webs(cut: CutPart, process: Process) -> Iterator[Finding]:
         )
 
 
-def _corners(cut: CutPart, process: Process, kerf: float) -> Iterator[Finding]:
+def _sharpest(cut: CutPart, process: Process, kerf: float) -> float:
+    """The most that stays in an inside corner, mm: R(1/sin(a/2) - 1) of one of the angle a; 0 below FELT."""
     radius = max(process.corner, kerf / 2)
     shape = cut.outline.polygon()
     closed = shapely.buffer(shapely.buffer(shape, radius, quad_segs=32), -radius, quad_segs=32)
-    rest = [one for one in shapely.get_parts(shapely.difference(closed, shape)) if one.area > 0]
-    deep = max(
-        (
-            float(shapely.distance(shapely.Point(at), closed.boundary))
-            for one in rest
-            for at in one.exterior.coords
-        ),
-        default=0.0,
-    )
+    parts = shapely.get_parts(shapely.difference(closed, shape))
+    # A corner that keeps d has an area above d²; the rest is rounding along arcs.
+    rest = [one for one in parts[shapely.area(parts) > FELT**2 / 2] if not _is_opening(one, shape)]
+    if not rest:
+        return 0.0
+    ends = shapely.points(shapely.get_coordinates(rest))
+    return float(shapely.distance(ends, shapely.boundary(closed)).max())
+
+
+def _is_opening(rest: shapely.Polygon, shape: shapely.Polygon) -> bool:
+    """Whether it is all of an opening: one that is too small for the beam is a matter of least holes."""
+    inside = shapely.Polygon(rest.exterior).representative_point()
+    holes = [shapely.Polygon(ring) for ring in shape.interiors]
+    return any(shapely.covers(one, inside) and rest.area > WHOLE * one.area for one in holes)
+
+
+def _corners(cut: CutPart, process: Process, kerf: float) -> Iterator[Finding]:
+    radius, deep = max(process.corner, kerf / 2), _sharpest(cut, process, kerf)
     if deep > FELT:
         yield Finding.warning(
             "cut.corner",

@@ -1,11 +1,9 @@
-"""Changes with which printed parts do what is asked: each is tried before it is said."""
+"""The printer with which printed parts do what is asked."""
 
 from bisect import bisect_left
 from collections.abc import Sequence
 
 from mechwright.contracts.finding import Change
-from mechwright.contracts.parameters import Parameters
-from mechwright.errors import MechwrightError
 from mechwright.pipeline import Build
 from mechwright.pipeline.tolerances.compared import ComparedOutput
 from mechwright_print.as_made import outputs_of
@@ -15,20 +13,6 @@ REAMED: Change = {"print.fits": "ream"}
 """Takes the printer's scatter out of the holes."""
 SPREADS = (0.1, 0.07, 0.05, 0.03, 0.02, 0.01, 0.005)
 """Of printers that are tried where this one's is too large, mm: the last one is that of a good mill."""
-
-
-def working(
-    build: Build, job: PrintJob, broken: Sequence[ComparedOutput], changes: Sequence[Change]
-) -> tuple[Change, ...]:
-    """Those changes that let all outputs be kept, the first of them and what comes after it; else none."""
-    for place, change in enumerate(changes):
-        try:
-            params = _params(build, change)
-        except MechwrightError:
-            continue
-        if _are_kept(build, job, broken, params=params, reamed="print.fits" in change):
-            return tuple(changes[place:])
-    return ()
 
 
 def better_printer(build: Build, job: PrintJob, broken: Sequence[ComparedOutput]) -> str:
@@ -45,21 +29,9 @@ def better_printer(build: Build, job: PrintJob, broken: Sequence[ComparedOutput]
     return "make its limit in [tolerances] wider: no printer keeps it"
 
 
-def _params(build: Build, change: Change) -> Parameters:
-    """The parameters with a change, without a new choice of keys that the file leaves out."""
-    own: Change = {key: value for key, value in change.items() if key.startswith("parameters.")}
-    return build.design.changed(own, settle=False).params if own else build.design.params
-
-
 def _are_kept(
-    build: Build,
-    job: PrintJob,
-    broken: Sequence[ComparedOutput],
-    *,
-    params: Parameters | None = None,
-    spread: float | None = None,
-    reamed: bool = False,
+    build: Build, job: PrintJob, broken: Sequence[ComparedOutput], *, spread: float, reamed: bool
 ) -> bool:
     names = {one.output.name for one in broken}
-    again = outputs_of(build, job, params=params, spread=spread, reamed=reamed)
+    again = outputs_of(build, job, spread=spread, reamed=reamed)
     return all(one.is_kept for one in again if one.output.name in names)

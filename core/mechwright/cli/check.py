@@ -12,6 +12,13 @@ from mechwright.cli.telling import echo, tell
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.errors import DesignError
 from mechwright.pipeline import Wanted
+from mechwright.pipeline.process import ProcessSettings, ProcessTable
+from mechwright.pipeline.process_options import (
+    ProcessOption,
+    options_sentence,
+    options_table,
+    process_options,
+)
 from mechwright.pipeline.tolerances import KEYS, as_data, as_text, required_analysis
 from mechwright.scripting.checking import unmade
 from mechwright.scripting.mechanism import Mechanism
@@ -33,6 +40,8 @@ def check(
         # A mechanism that does not move has no errors of its motion.
         moves = not errors(findings, Stage.MOTION) and not any(f.code == KEYS for f in findings)
         analysis = required_analysis(build) if tolerances and moves else None
+        named = build.design.table(ProcessTable) != ProcessSettings()
+        options = _options(build, findings, to) if as_json or figures or named else []
     failed, open_ = bool(errors(findings)), unmade(build.host, to)
     if as_json:
         said = {
@@ -42,6 +51,8 @@ def check(
             "unmade": list(open_),
             "findings": [f.as_dict() for f in findings],
         }
+        if options:
+            said["processes"] = [one.as_dict() for one in options]
         if analysis is not None:
             said["tolerances"] = as_data(analysis)
         typer.echo(json.dumps(said, indent=2))
@@ -49,11 +60,19 @@ def check(
         for finding in shown(findings):
             tell(finding)
         if figures:
-            echo(*table(findings))
+            echo(*table(findings), *options_table(options))
         if analysis is not None:
             echo(*as_text(analysis))
+        if named and options:
+            echo(options_sentence(options))
         echo(f"{path}: {verdict(to, open_, failed=failed)}")
     raise typer.Exit(1 if failed else 0)
+
+
+def _options(build: Mechanism, findings: Iterable[Finding], to: Stage | None) -> list[ProcessOption]:
+    """The processes of each plate, where the check comes to machining, and there are parts."""
+    early = to is not None and Stage.MACHINING.is_after(to)
+    return [] if early or errors(findings, Stage.PARTS) else process_options(build)
 
 
 def stage_of(text: str) -> Stage | None:

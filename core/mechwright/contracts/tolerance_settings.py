@@ -41,11 +41,12 @@ MOST_SAMPLES = 10_000_000
 class ToleranceSettings(Parameters):
     """The table ``[tolerances]``; what single contributors have of their own is in ``[tolerances.of]``."""
 
-    general: Literal["proof", "fine", "medium", "coarse"] = Field(
+    general: Literal["proof", "process", "fine", "medium", "coarse"] = Field(
         "proof",
         description=(
-            "Of dimensions without a tolerance of their own: what the proof of a program lets pass, or ISO "
-            "2768-1 f, m, c."
+            "Of dimensions without a tolerance of their own: what the proof of a program lets pass, what the "
+            "process of the plates holds, or ISO 2768-1 f, m, c. Default: process where plates are cut or "
+            "printed, else proof."
         ),
     )
     length: Plus | None = Field(None, description="Of all lengths, plus and minus. Default: general.")
@@ -128,27 +129,33 @@ class Tolerances:
         given = self.settings.length
         if given is not None:
             return self._size(name, "mm", nominal, given, "length")
-        if self.settings.general == "proof":
-            return self._size(name, "mm", nominal, 2 * self._off_middle, "general", "gouge", "leftover")
-        return self._size(name, "mm", nominal, general_length(nominal, self.settings.general), "general")
+        return self._apart(name, nominal)
 
     def centre(self, name: str, nominal: float) -> Contributor:
         """A distance between two axes, mm."""
         given = self.settings.centre
         if given is not None:
             return self._size(name, "mm", nominal, given, "centre")
-        if self.settings.general == "proof":
+        return self._apart(name, nominal)
+
+    def _apart(self, name: str, nominal: float) -> Contributor:
+        grade = self.grade
+        if grade is None:
             return self._size(name, "mm", nominal, 2 * self._off_middle, "general", "gouge", "leftover")
-        return self._size(name, "mm", nominal, general_length(nominal, self.settings.general), "general")
+        return self._size(name, "mm", nominal, general_length(nominal, grade), "general")
+
+    @property
+    def grade(self) -> Grade | None:
+        """The class of ISO 2768 for dimensions without a tolerance; None where walls bound them."""
+        general = self.settings.general
+        return None if general in {"proof", "process"} else general  # type: ignore[return-value]
 
     def angle(self, name: str, nominal: float, leg: float) -> Contributor:
         """An angle of a link whose shorter leg is ``leg`` mm; rad."""
         given = self.settings.angle
         if given is not None:
             return self._size(name, "rad", nominal, math.radians(given), "angle")
-        general = self.settings.general
-        of: Grade = "fine" if general == "proof" else general
-        return self._size(name, "rad", nominal, general_angle(leg, of), "general")
+        return self._size(name, "rad", nominal, general_angle(leg, self.grade or "fine"), "general")
 
     def input(self, name: str) -> tuple[Contributor, ...]:
         """The setting of the input angle, rad; none where it is exact."""
@@ -168,10 +175,10 @@ class Tolerances:
         settings = self.settings
         if settings.eccentricity is not None:
             radius, key = settings.eccentricity, "eccentricity"
-        elif settings.general == "proof":
+        elif self.grade is None:
             radius, key = self._off_middle, "general gouge leftover"
         else:
-            radius, key = general_eccentricity(settings.general), "general"
+            radius, key = general_eccentricity(self.grade), "general"
         zone = Zone(0.0, 2 * radius, settings.distribution)
         return self._owned(Contributor(name, f"{key} distribution", "mm", 0.0, (zone,), 2))
 

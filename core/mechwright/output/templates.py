@@ -8,11 +8,14 @@ if TYPE_CHECKING:
 
 
 def templates(*folders: Path) -> "jinja2.Environment":
-    """The templates of some folders; the first that has a name gives it. Imports jinja2 when it is called."""
+    """The templates of some folders; the first that has a name gives it. Imports jinja2 when it is called.
+
+    Behind them all comes this folder, with the style of pages that are lists.
+    """
     import jinja2
 
     return jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folders),
+        loader=jinja2.FileSystemLoader([*folders, Path(__file__).parent]),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,

@@ -2,6 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -19,11 +20,38 @@ from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
 
 if TYPE_CHECKING:
+    from mechwright.contracts.made_part import MadePart
     from mechwright.contracts.part import Part
     from mechwright.designs.design import Design
 
 MILL = "mill"
 """The process of what a design says nothing of."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """How far plates of a process stray from one to the next, mm.
+
+    Parameters
+    ----------
+    size
+        Of a length between two walls, plus and minus.
+    taper
+        Largest difference of such a length between the faces.
+    play, scatter
+        What a joint has besides its own play, on the diameter, and that plus and minus: of holes that the
+        process makes wider than drawn.
+    """
+
+    size: float
+    taper: float = 0.0
+    play: float = 0.0
+    scatter: float = 0.0
+
+    @property
+    def wall(self) -> float:
+        """By how much one wall may be off, mm: half of what two have, at the face where it is worst."""
+        return (self.size + self.taper) / 2
 
 
 class Process(Plugin):
@@ -39,12 +67,27 @@ class Process(Plugin):
     def refuses(self, part: "Part", build: Build) -> str | None:
         """Why it cannot make a plate, in a clause such as "its pocket has a floor"; None where it can."""
 
+    def objections(self, part: "Part", build: Build) -> Sequence[Finding]:  # noqa: ARG002 - for those with rules
+        """What its rules find of a plate, whether or not the design has chosen it; by default nothing.
+
+        Where an error has a remedy, the plate can be made with it. Asked of plates that it does not refuse.
+        """
+        return ()
+
     def loses(self, part: "Part", build: Build) -> Sequence[str]:  # noqa: ARG002 - for those that know
         """What the plate has less of than as drawn, each in a few words; by default nothing."""
         return ()
 
     by_material: ClassVar[bool] = False
     """Whether what it leaves on a wall differs by material and thickness, as a kerf does."""
+
+    def spread(self, part: "Part", build: Build) -> Spread | None:  # noqa: ARG002 - for those that know
+        """How far the plate strays; None, the default, where a proof bounds its walls."""
+        return None
+
+    def produced(self, part: "Part", build: Build) -> "Sequence[MadePart]":  # noqa: ARG002 - for those that know
+        """Each copy of a plate as its program leaves it; by default nothing, and nothing is judged by it."""
+        return ()
 
     def correction(self, off: float, walls: str, part: "Part", build: Build) -> str:  # noqa: ARG002
         """What to set for the next piece where stock stays on each wall, as a clause.

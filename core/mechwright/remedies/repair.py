@@ -1,4 +1,4 @@
-"""Making a design build: the changes of ``mechwright fix``, from cheap judgements to dear ones."""
+"""Wording a design build: the changes of ``mechwright fix``, from cheap judgements to dear ones."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

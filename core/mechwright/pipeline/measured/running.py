@@ -68,4 +68,4 @@ def measured_tolerances(
 
 def as_measured(build: Build, pairs: Sequence[Pairing], found: Sequence[Correction]) -> list[ComparedOutput]:
     """The outputs of the family's analysis; none where it has none."""
-    return compared(build, measured_tolerances(build, pairs, found), ())
+    return compared(build, measured_tolerances(build, pairs, found))

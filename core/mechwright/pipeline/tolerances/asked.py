@@ -9,16 +9,15 @@ from mechwright.errors import DesignError
 from mechwright.mechanics.tolerance import Analysis, analyse, check_keys
 from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
-from mechwright.pipeline.tolerances.table import TolerancesTable
+from mechwright.pipeline.tolerances.by_process import (
+    SpreadTolerances,
+    analysed,
+    tolerances_for,
+    tolerances_of,
+)
 
 KEYS = "tolerances.key"
 """Code of the finding that a key of ``[tolerances]`` cannot be obeyed."""
-
-
-def tolerances_of(build: Build) -> Tolerances:
-    """What the design says of tolerances."""
-    value: Tolerances = build.design.tables.get(TolerancesTable.name, Tolerances())
-    return value
 
 
 def model_of(build: Build) -> ToleranceModel | None:
@@ -39,7 +38,18 @@ def model_of(build: Build) -> ToleranceModel | None:
 
 
 def analysis_of(build: Build) -> Analysis | None:
-    """The analysis of a build; None where the family has none. Raises as :func:`model_of` does."""
+    """The analysis of a build whose plates stray as their processes do; None where the family has none.
+
+    Raises as :func:`model_of` does.
+    """
+    tolerances = tolerances_for(build, build.parts)
+    if not isinstance(tolerances, SpreadTolerances):
+        return build.made(drawn_analysis)
+    return None if model_of(build) is None else analysed(build, tolerances)
+
+
+def drawn_analysis(build: Build) -> Analysis | None:
+    """The analysis by what the design file says alone, whoever makes the plates; else as analysis_of."""
     model = model_of(build)
     return None if model is None else analyse(model, tolerances_of(build))
 

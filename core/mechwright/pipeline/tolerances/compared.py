@@ -1,17 +1,14 @@
 """A design with other tolerances than its own: those of a process, or of parts that were measured."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TypeVar
 
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.tolerance_settings import Tolerances, ToleranceSettings
+from mechwright.contracts.tolerance_settings import Tolerances
 from mechwright.contracts.tolerances import Output
-from mechwright.mechanics.tolerance import Analysis, Result, analyse
+from mechwright.mechanics.tolerance import Result
 from mechwright.pipeline.build import Build
-from mechwright.pipeline.tolerances.asked import analysis_of
-
-T = TypeVar("T", bound=Tolerances)
+from mechwright.pipeline.tolerances.asked import drawn_analysis
+from mechwright.pipeline.tolerances.by_process import analysed
 
 ALL_BUT = 0.9973
 """Share of the mechanisms that has to do what is asked, as of three standard deviations."""
@@ -48,18 +45,14 @@ class ComparedOutput:
         return self.kept is None or self.kept >= ALL_BUT
 
 
-def compared(
-    build: Build, tolerances: Tolerances, set_: Iterable[str], params: Parameters | None = None
-) -> list[ComparedOutput]:
-    """The outputs of a build with other tolerances; none where its family has no analysis.
-
-    ``set_`` are the keys of the settings that are not the design's: those on which nothing depends go back to
-    their defaults. ``params`` are other parameters than the design's.
-    """
-    found = _analysis(build, tolerances, set_, params)
+def compared(build: Build, tolerances: Tolerances, params: Parameters | None = None) -> list[ComparedOutput]:
+    """The outputs of a build with other tolerances, and other parameters; none where there is no analysis."""
+    samples = min(tolerances.settings.samples, SAMPLES)
+    fewer = tolerances.settings.model_copy(update={"samples": samples})
+    found = analysed(build, replace(tolerances, settings=fewer), params)
     if found is None:
         return []
-    designed = build.made(analysis_of)
+    designed = build.made(drawn_analysis)
     before = {} if designed is None else {one.output.name: _worst(one) for one in designed.results}
     outputs = []
     for one in found.results:
@@ -67,21 +60,6 @@ def compared(
             known = before.get(one.output.name)
             outputs.append(ComparedOutput(one.output, None if known is None else known[0], *worst))
     return outputs
-
-
-def _analysis(build: Build, tolerances: T, set_: Iterable[str], params: Parameters | None) -> Analysis | None:
-    family = build.design.family
-    params = build.design.params if params is None else params
-    model = family.tolerances(params, tolerances)
-    if model is None:
-        return None
-    used = {key for one in model.contributors for key in one.key.split()}
-    fields = ToleranceSettings.model_fields
-    changes = {key: fields[key].default for key in set_ if key not in used}
-    changes["samples"] = min(tolerances.settings.samples, SAMPLES)
-    tolerances = replace(tolerances, settings=tolerances.settings.model_copy(update=changes))
-    again = family.tolerances(params, tolerances)
-    return None if again is None else analyse(again, tolerances)
 
 
 def _worst(result: Result) -> tuple[float, float | None, float | None] | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from mechwright.contracts.tolerances import Contributor, Output
 from mechwright.mechanics.tolerance import Analysis, Place, Result, Trial
+from mechwright.pipeline.tolerances.by_process import SpreadTolerances
 from mechwright.pipeline.tolerances.units import (
     degrees,
     input_position,
@@ -131,6 +132,8 @@ def outcome(analysis: Analysis, output: Output, trial: Trial) -> list[str]:
 def remarks(analysis: Analysis) -> Iterator[str]:
     """What is told besides: the model's own words, and where the first order is not enough."""
     yield from analysis.model.told
+    if isinstance(analysis.tolerances, SpreadTolerances):
+        yield 'plates stray as their process does; general = "proof" in [tolerances] leaves that out'
     unit = analysis.model.input_unit
     for result in analysis.results:
         name, places = result.output.name, {place.at[0]: place for place in result.places}

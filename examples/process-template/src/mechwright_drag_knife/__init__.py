@@ -1,0 +1,1 @@
+"""A drag knife as a process of Mechwright."""
