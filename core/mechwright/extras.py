@@ -71,6 +71,13 @@ def _missing(library: str, by: str) -> PluginError:
     return PluginError(f"{said} is not installed, which the extra {extra} brings: {install_line(extra)}")
 
 
+def beside_line(name: str, folder: str) -> str:
+    """The line to type that installs a distribution of its own, which a checkout has in a folder."""
+    _, source = _source()
+    what = str(source / folder) if isinstance(source, Path) and (source / folder).is_dir() else name
+    return f"{word(sys.executable or 'python')} -m pip install {word(what)}"
+
+
 def install_line(extra: str) -> str:
     """The line to type that installs an extra into this interpreter, from where the program itself came."""
     editable, source = _source()
