@@ -7,6 +7,7 @@ api/gcode`` loads a program of one of them and ``GET api/gcode`` gives it back (
 
 import json
 import os
+import re
 from typing import Any
 from urllib.parse import quote
 
@@ -17,6 +18,9 @@ from mechwright_cam.senders.target import Target
 
 USER = "MECHWRIGHT_CNCJS"
 """Environment variable with ``NAME:PASSWORD``, where cncjs has users: a command line is seen by others."""
+
+_WAIT = re.compile(r"(\n%wait\b[^\n]*)?")
+"""What cncjs writes behind a program."""
 
 
 class Cncjs(Target):
@@ -36,7 +40,7 @@ class Cncjs(Target):
         where = f"/api/gcode?port={quote(machine, safe='')}"
         loaded = self._asked("GET", where, token)
         name, text = loaded.get("name") or "", file.data.decode("ascii")
-        if (name, loaded.get("data")) == (file.name, text):
+        if name == file.name and _is(loaded, text):
             return f"{self._server.address}: {file.name} is loaded already on {machine}"
         if name and not replace:
             raise OutputError(
@@ -44,7 +48,7 @@ class Cncjs(Target):
                 "unload it there, or --force to replace it"
             )
         self._asked("POST", "/api/gcode", token, {"port": machine, "name": file.name, "gcode": text})
-        if self._asked("GET", where, token).get("data") != text:
+        if not _is(self._asked("GET", where, token), text):
             raise self._server.error(f"gives back another program than {file.name}: unload it there")
         return f"{self._server.address}: {file.name} loaded on {machine}"
 
@@ -56,7 +60,7 @@ class Cncjs(Target):
         given = {"name": name, "password": password} if user else {}
         kind = {"Content-Type": "application/json"}
         status, content = self._server.ask("POST", "/api/signin", json.dumps(given).encode(), kind)
-        if status == 401 or (status >= 400 and not user):
+        if status == 401:
             raise self._server.error(f"refuses name and password: set {USER}=NAME:PASSWORD")
         found = self._server.data(status, content)
         token = found.get("token") if isinstance(found, dict) else None
@@ -83,3 +87,9 @@ class Cncjs(Target):
         if not whole and not isinstance(found, dict):
             raise self._server.error("gives another answer than cncjs does; is it the right address?")
         return found
+
+
+def _is(loaded: dict[str, Any], text: str) -> bool:
+    """Whether a program is loaded: cncjs itself adds a line that waits for the end of the last move."""
+    data = loaded.get("data")
+    return isinstance(data, str) and data.startswith(text) and _WAIT.fullmatch(data, len(text)) is not None
