@@ -70,7 +70,7 @@ def opened(folders, folder):
 
 def instances(step):
     """Names of the bodies in a STEP file, in order, by its own words."""
-    return re.findall(r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('\d+','([^']*)'", step.read_text())
+    return re.findall(r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\(\s*'\d+',\s*'([^']*)'", step.read_text())
 
 
 def modelled(command_line, name, folder):

@@ -13,8 +13,8 @@ from urllib.parse import quote
 
 from mechwright.errors import DesignError, OutputError
 from mechwright_cam.senders.certified import ProgramFile
+from mechwright_cam.senders.contract import Target
 from mechwright_cam.senders.http import Server
-from mechwright_cam.senders.target import Target
 
 USER = "MECHWRIGHT_CNCJS"
 """Environment variable with ``NAME:PASSWORD``, where cncjs has users: a command line is seen by others."""

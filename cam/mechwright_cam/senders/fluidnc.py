@@ -12,8 +12,8 @@ from urllib.parse import quote, unquote
 
 from mechwright.errors import DesignError, OutputError
 from mechwright_cam.senders.certified import ProgramFile
+from mechwright_cam.senders.contract import Target
 from mechwright_cam.senders.http import Server
-from mechwright_cam.senders.target import Target
 
 CARD = "sd"
 """The volume that ``/upload`` writes to; the other one holds the settings of the controller."""

@@ -7,7 +7,7 @@ from mechwright.errors import OutputError
 from mechwright.output.folder import write_new
 from mechwright.reading import read_bytes, regular
 from mechwright_cam.senders.certified import LARGEST, ProgramFile
-from mechwright_cam.senders.target import Target
+from mechwright_cam.senders.contract import Target
 
 
 class WatchedFolder(Target):

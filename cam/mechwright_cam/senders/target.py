@@ -1,34 +1,20 @@
 """Where programs go, as a user writes it."""
 
 import re
-from abc import ABC, abstractmethod
 from pathlib import Path
 from urllib.parse import urlsplit
 
 from mechwright.errors import DesignError
-from mechwright_cam.senders.certified import ProgramFile
+from mechwright_cam.senders.cncjs import Cncjs
+from mechwright_cam.senders.contract import Target
+from mechwright_cam.senders.fluidnc import FluidNc
+from mechwright_cam.senders.folder import WatchedFolder
 
 READERS = {"cncjs", "fluidnc"}
 """Schemes of addresses; anything else is a folder."""
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+)://")
 """Of at least two letters: one letter is a drive of Windows."""
-
-
-class Target(ABC):
-    """A place that takes programs.
-
-    Raises OutputError where it cannot be reached or does not hold afterwards what was sent.
-    """
-
-    controls: frozenset[str] = frozenset()
-    """Names of the controls whose programs it takes; empty for all."""
-    single: bool = False
-    """Whether it holds one file at a time."""
-
-    @abstractmethod
-    def send(self, file: ProgramFile, *, replace: bool) -> str:
-        """Send a file, and say where it is."""
 
 
 def target(words: str, port: str = "") -> Target:
@@ -46,10 +32,6 @@ def target(words: str, port: str = "") -> Target:
     DesignError
         The address has another scheme, no host or a port that is no number.
     """
-    from mechwright_cam.senders.cncjs import Cncjs
-    from mechwright_cam.senders.fluidnc import FluidNc
-    from mechwright_cam.senders.folder import WatchedFolder
-
     match = _SCHEME.match(words)
     scheme = match[1].lower() if match else ""
     if port and scheme != "cncjs":
