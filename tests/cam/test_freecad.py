@@ -188,22 +188,12 @@ def test_a_folder_that_is_not_there_is_one_line(command_line, tmp_path, monkeypa
     assert len(err.splitlines()) == 1
 
 
-@pytest.mark.parametrize(
-    ("system", "place"),
-    [
-        ("linux", ".local/share/FreeCAD/Mod"),
-        ("darwin", "Library/Application Support/FreeCAD/Mod"),
-        ("win32", "AppData/Roaming/FreeCAD/Mod"),
-    ],
-)
-def test_the_users_own_folder_is_found_on_every_system(tmp_path, monkeypatch, system, place):
-    monkeypatch.setattr(install.sys, "platform", system)
-    monkeypatch.setattr(install.Path, "home", lambda: tmp_path)
-    monkeypatch.delenv("XDG_DATA_HOME", raising=False)
-    monkeypatch.delenv("APPDATA", raising=False)
-    (tmp_path / place).parent.mkdir(parents=True)
-    assert install._own() == tmp_path / place
-    assert (tmp_path / place).is_dir()
+def test_the_users_own_folder_is_taken_by_default(command_line, tmp_path, monkeypatch):
+    monkeypatch.setattr(install, "application_data", lambda name: tmp_path / name)
+    assert command_line("freecad")[0] == 2
+    (tmp_path / "FreeCAD").mkdir()
+    assert command_line("freecad")[0] == 0
+    assert (tmp_path / "FreeCAD" / "Mod" / "Mechwright" / "InitGui.py").is_file()
 
 
 def test_the_add_on_is_of_a_python_that_older_freecads_have():

@@ -1,13 +1,13 @@
 """Copies the add-on to where FreeCAD finds it."""
 
 import json
-import os
 import sys
 from pathlib import Path
 
 from mechwright.cli.telling import echo
 from mechwright.errors import OutputError
 from mechwright.output.folder import write_new
+from mechwright.systems import application_data
 
 ADDON = Path(__file__).parent / "addon"
 NAME = "Mechwright"
@@ -48,13 +48,7 @@ def install(folder: Path | None, *, force: bool) -> None:
 
 def _own() -> Path:
     """The user's folder of add-ons: FreeCAD 0.20 to 1.0, by system."""
-    home = Path.home()
-    if sys.platform == "win32":
-        data = Path(os.environ.get("APPDATA") or home / "AppData" / "Roaming") / "FreeCAD"
-    elif sys.platform == "darwin":
-        data = home / "Library" / "Application Support" / "FreeCAD"
-    else:
-        data = Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share") / "FreeCAD"
+    data = application_data("FreeCAD")
     if data.is_dir():
         (data / "Mod").mkdir(exist_ok=True)
     return data / "Mod"

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar
 
 import pluggy
 
-import mechwright
 from mechwright.contracts.guard import TimeUpError, loading
 from mechwright.contracts.plugin import Plugin, contract_of, methods_of
 from mechwright.contracts.result import Result, found_by
@@ -19,7 +18,7 @@ from mechwright.contracts.stops import is_stop
 from mechwright.errors import PluginError, did_you_mean, shortened
 from mechwright.plugins import hookspecs
 from mechwright.plugins.trial import Candidate, verdicts
-from mechwright.plugins.versions import api_fault, api_warning
+from mechwright.plugins.versions import api_fault, api_warning, program
 
 if TYPE_CHECKING:
     from mechwright.contracts.family import Family
@@ -146,7 +145,7 @@ class Host:
                     fail(reason)
                 else:
                     self._take(cls, distribution, plugin, fail)
-                    if warning := api_warning(cls.api, mechwright.__version__):
+                    if warning := api_warning(cls.api, program()):
                         self.outdated.append(Outdated(distribution, plugin, f"{cls.__name__} {warning}"))
 
     def _take(self, cls: type[Plugin], distribution: str, plugin: str, fail: Callable[[str], object]) -> None:
@@ -216,7 +215,7 @@ def _class_fault(cls: Any, distribution: str) -> str:
     contract = contract_of(cls)
     if contract is None:
         return f"{cls.__name__} is a contract itself; register classes that derive from it"
-    if fault := api_fault(getattr(cls, "api", None), mechwright.__version__):
+    if fault := api_fault(getattr(cls, "api", None), program()):
         return f"{cls.__name__} {fault}"
     if taken := [name for name in _ASKING if getattr(cls, name, None) is not getattr(contract, name, None)]:
         return f"{cls.__name__} has a {taken[0]} of its own, by which everybody asks it; leave that out"
