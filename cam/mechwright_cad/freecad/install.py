@@ -7,6 +7,7 @@ from pathlib import Path
 from mechwright.cli.telling import echo
 from mechwright.errors import OutputError
 from mechwright.output.folder import write_new
+from mechwright.reading import read_bytes
 from mechwright.systems import application_data
 
 ADDON = Path(__file__).parent / "addon"
@@ -28,12 +29,12 @@ def install(folder: Path | None, *, force: bool) -> None:
             "gives for FreeCAD.getUserAppDataDir(): mechwright freecad FOLDER"
         )
     target = place / NAME
-    files = {path.name: path.read_bytes() for path in sorted(ADDON.iterdir()) if path.is_file()}
+    files = {path.name: read_bytes(path) for path in sorted(ADDON.iterdir()) if path.is_file()}
     files[COMMAND] = (json.dumps([sys.executable, "-m", "mechwright"]) + "\n").encode()
     old = [
         name
         for name, data in files.items()
-        if (target / name).exists() and (target / name).read_bytes() != data
+        if (target / name).exists() and read_bytes(target / name) != data
     ]
     if old and not force:
         raise OutputError(f"{target}: has another version ({old[0]}); --force to replace it")
