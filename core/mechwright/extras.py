@@ -71,7 +71,7 @@ def _missing(library: str, by: str) -> PluginError:
     return PluginError(f"{said} is not installed, which the extra {extra} brings: {install_line(extra)}")
 
 
-def beside_line(name: str, folder: str) -> str:
+def distribution_line(name: str, folder: str) -> str:
     """The line to type that installs a distribution of its own, which a checkout has in a folder."""
     _, source = _source()
     what = str(source / folder) if isinstance(source, Path) and (source / folder).is_dir() else name

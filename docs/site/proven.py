@@ -1,7 +1,7 @@
 """Twenty mechanisms with their parts and proofs: ``python docs/site/proven.py`` builds them anew.
 
-Each is built by ``mechwright cam`` as anybody would, and ``mechwright-check`` judges its certificates. What is
-found stands in ``proven.json``, and pages of the gallery show it: a site is made without twenty builds.
+Each is built by ``mechwright cam`` as anybody would, and ``mechwright-check`` judges its certificates. Pages of
+the gallery show what ``proven.json`` says: a site is made without twenty builds.
 """
 
 import json
@@ -109,7 +109,8 @@ def lines(name: str) -> list[str]:
         *rows,
         "",
         "Gouge is the deepest cut into the part, leftover the thickest stock that a cutter could have "
-        "reached. The [certificate](../certificate.md) is judged by a checker that shares no code with the proof.",
+        "reached. The [certificate](../certificate.md) is judged by a checker that shares no code with "
+        "the proof.",
         "",
     ]
 

@@ -122,7 +122,7 @@ def test_a_checker_that_is_missing_is_named_with_the_line_that_installs_it(made,
     monkeypatch.setattr(held, "find_spec", lambda _: None)
     monkeypatch.setattr(held.shutil, "which", lambda _: None)
     code, _, err = sent(made[1], "--to", watched)
-    line = extras.beside_line("mechwright-check", "cam/mechwright_check")
+    line = extras.distribution_line("mechwright-check", "cam/mechwright_check")
     assert (code, err) == (
         2,
         [f"mechwright: send: mechwright-check, which checks certificates, is not installed: {line}"],

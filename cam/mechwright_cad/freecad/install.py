@@ -32,9 +32,7 @@ def install(folder: Path | None, *, force: bool) -> None:
     files = {path.name: read_bytes(path) for path in sorted(ADDON.iterdir()) if path.is_file()}
     files[COMMAND] = (json.dumps([sys.executable, "-m", "mechwright"]) + "\n").encode()
     old = [
-        name
-        for name, data in files.items()
-        if (target / name).exists() and read_bytes(target / name) != data
+        name for name, data in files.items() if (target / name).exists() and read_bytes(target / name) != data
     ]
     if old and not force:
         raise OutputError(f"{target}: has another version ({old[0]}); --force to replace it")

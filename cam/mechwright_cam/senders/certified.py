@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from mechwright.errors import DesignError, OutputError, PluginError, ProofError
-from mechwright.extras import beside_line
+from mechwright.extras import distribution_line
 from mechwright.reading import read_bytes, regular
 from mechwright_cam.program.endings import CERTIFICATE
 
@@ -151,6 +151,6 @@ def _checker() -> list[str]:
         return [sys.executable, "-P", "-m", CHECKER]
     command = shutil.which("mechwright-check")
     if command is None:
-        line = beside_line("mechwright-check", f"cam/{CHECKER}")
+        line = distribution_line("mechwright-check", f"cam/{CHECKER}")
         raise PluginError(f"send: mechwright-check, which checks certificates, is not installed: {line}")
     return [command]
