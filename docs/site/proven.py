@@ -1,6 +1,6 @@
 """Twenty mechanisms with their parts and proofs: ``python docs/site/proven.py`` builds them anew.
 
-Each is built by ``mechwright cam`` as anybody would, and ``mechwright-check`` judges its certificates. Pages of
+Each is built by ``mechwright cam`` as anybody would; ``mechwright-check`` judges its certificates. Pages of
 the gallery show what ``proven.json`` says: a site is made without twenty builds.
 """
 
