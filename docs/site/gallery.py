@@ -185,6 +185,10 @@ def _briefly(said: str) -> str:
     return escape(said.split(". ")[0].split(": ")[0].rstrip(".").replace("`", ""))
 
 
+def _counted(programs: int) -> str:
+    return f"{programs} program{'s' if programs > 1 else ''}"
+
+
 def twenty(every: dict[str, Example]) -> list[str]:
     """Lines with a card for each mechanism whose page shows parts and proof as well."""
     shown = proven.entries()
@@ -199,7 +203,7 @@ def twenty(every: dict[str, Example]) -> list[str]:
         rows += [
             f'<a class="card" href="{name}.html#its-parts-and-their-proof">'
             f'<img src="{name}/still.svg" alt="{name}" loading="lazy">'
-            f"<b>{name}</b><span>{_briefly(every[name].said)}. {len(one['programs'])} programs, "
+            f"<b>{name}</b><span>{_briefly(every[name].said)}. {_counted(len(one['programs']))}, "
             f"{minutes:.0f} min; at most {worst:g} µm left</span></a>",
             "",
         ]

@@ -88,13 +88,20 @@ def entries() -> dict[str, Any]:
     return dict(json.loads(FILE.read_text(encoding="utf-8"))) if FILE.exists() else {}
 
 
+def _thickness(value: float) -> str:
+    """Of a plate; turned parts have none."""
+    return f"{value:g} mm" if value else "turned"
+
+
 def lines(name: str) -> list[str]:
     """Lines of a page with parts and proofs of an example; none of one that is not among the twenty."""
     found = entries().get(name)
     if found is None:
         return []
     rows = ["## Its parts and their proof", "", "| part | material | thickness |", "| --- | --- | --- |"]
-    rows += [f"| {one['name']} | {one['material']} | {one['thickness_mm']:g} mm |" for one in found["parts"]]
+    rows += [
+        f"| {one['name']} | {one['material']} | {_thickness(one['thickness_mm'])} |" for one in found["parts"]
+    ]
     rows += [
         "",
         "| program | checks passed | gouge | leftover | time | certificate |",
