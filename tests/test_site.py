@@ -15,6 +15,7 @@ import first_hour
 import gallery
 import gif
 import numpy as np
+import proven
 import pytest
 import tour
 import tree
@@ -25,7 +26,9 @@ from mechwright_cad.animation import PAGE_SAMPLES
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
-PAGES = sorted(path.relative_to(ROOT).as_posix() for path in DOCS.rglob("*.md"))
+PAGES = sorted(
+    path.relative_to(ROOT).as_posix() for path in DOCS.rglob("*.md") if path.parent.name != "paper"
+)
 CONFIG = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
 BUILT = os.environ.get("MECHWRIGHT_SITE", "")
 """Folder of the site, where it has been built."""
@@ -219,3 +222,29 @@ def test_every_example_moves_on_the_site():
         assert page.is_file()
         assert (page.with_suffix("") / "motion.html").is_file() is not one.required
         assert (page.with_suffix("") / "still.svg").is_file() is not one.required
+
+
+def test_the_twenty_mechanisms_have_parts_and_proof():
+    found = proven.entries()
+    assert list(found) == list(proven.TWENTY)
+    assert len(set(proven.TWENTY)) == 20
+    for name, one in found.items():
+        text = "\n".join(proven.lines(name))
+        assert one["parts"]
+        assert one["programs"]
+        for part in one["parts"]:
+            assert f"| {part['name']} | {part['material']} |" in text
+        for program in one["programs"]:
+            assert program["proven"]
+            assert program["gouge_um"] <= 5
+            assert program["leftover_um"] <= 10
+            assert program["certificate"] != "refuted"
+            assert f"| {program['name']} | {program['checks']} |" in text
+    assert proven.lines("geneva-requirement") == []
+
+
+@pytest.mark.parametrize(
+    "name", [proven.TWENTY[0], *(pytest.param(one, marks=by_night) for one in proven.TWENTY[1:])]
+)
+def test_parts_and_proof_are_what_the_command_makes(name, tmp_path):
+    assert proven.entry(name, tmp_path / "out") == proven.entries()[name], "python docs/site/proven.py"

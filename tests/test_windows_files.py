@@ -61,7 +61,7 @@ def test_what_is_open_stays_where_it_is(tmp_path: Path) -> None:
         (tmp_path / "b").replace(file)
     with pytest.raises(FileExistsError):
         (tmp_path / "b").rename(file)
-    assert not folder._exchange(tmp_path, tmp_path)
+    assert not folder.exchange(tmp_path, tmp_path)
     file.unlink()
 
 

@@ -66,7 +66,34 @@ class Live(Command):
         live(design, port, show)
 
 
+class FreeCad(Command):
+    """``mechwright freecad``."""
+
+    name = "freecad"
+    order = 96
+
+    def run(
+        self,
+        folder: Annotated[
+            Path | None,
+            typer.Argument(
+                metavar="FOLDER",
+                help="FreeCAD's folder Mod; by default the user's own.",
+                show_default=False,
+            ),
+        ] = None,
+        force: Annotated[bool, typer.Option("--force", help="Replace another version.")] = False,
+    ) -> None:
+        """Install the add-on for FreeCAD.
+
+        Its panel shows parts and motion of a design file, and has the programs written by this installation.
+        """
+        from mechwright_cad.freecad.install import install
+
+        install(folder, force=force)
+
+
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The commands that make solids, and that show a design."""
-    return [Model, Live]
+    """The commands that make solids, show a design, and install the add-on for FreeCAD."""
+    return [Model, Live, FreeCad]

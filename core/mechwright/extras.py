@@ -71,6 +71,13 @@ def _missing(library: str, by: str) -> PluginError:
     return PluginError(f"{said} is not installed, which the extra {extra} brings: {install_line(extra)}")
 
 
+def distribution_line(name: str, folder: str) -> str:
+    """The line to type that installs a distribution of its own, which a checkout has in a folder."""
+    _, source = _source()
+    what = str(source / folder) if isinstance(source, Path) and (source / folder).is_dir() else name
+    return f"{_installer()} {word(what)}"
+
+
 def install_line(extra: str) -> str:
     """The line to type that installs an extra into this interpreter, from where the program itself came."""
     editable, source = _source()
@@ -81,7 +88,13 @@ def install_line(extra: str) -> str:
     else:
         what = f"{NAME}[{extra}] @ {source}"
     option = "-e " if editable else ""
-    return f"{word(sys.executable or 'python')} -m pip install {option}{word(what, always=True)}"
+    return f"{_installer()} {option}{word(what, always=True)}"
+
+
+def _installer() -> str:
+    """The beginning of such a line: an environment that uv has made has no pip."""
+    python = word(sys.executable or "python")
+    return f"{python} -m pip install" if _installed("pip") else f"uv pip install --python {python}"
 
 
 def _source() -> tuple[bool, Path | str | None]:

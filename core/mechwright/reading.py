@@ -17,6 +17,7 @@ from contextvars import ContextVar
 from pathlib import Path
 
 from mechwright.errors import DesignError, MechwrightError, OutputError
+from mechwright.systems import READ_FLAGS
 
 INPUT_LIMIT = 20_000_000
 """Bytes: files of other programs that a design names, such as libraries of thousands of tools."""
@@ -28,8 +29,6 @@ _WAITS = (0.0, 0.1, 0.4)
 """Seconds before each try to read a file: who saves one in place is done with it by the last of them."""
 
 _PIECE = 1 << 20
-_NONBLOCK = getattr(os, "O_NONBLOCK", 0)
-_FLAGS = os.O_RDONLY | _NONBLOCK | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 
 _KINDS = (
     (stat.S_ISDIR, "a folder"),
@@ -95,7 +94,7 @@ def _read(path: Path, limit: int) -> bytes:
             time.sleep(wait)
             # Asked before it is opened: opening alone rewinds a tape.
             _require_regular(path, path.stat().st_mode)
-            handle = os.open(path, _FLAGS)
+            handle = os.open(path, READ_FLAGS)
             try:
                 before = os.fstat(handle)
                 data = _content(path, handle, limit)

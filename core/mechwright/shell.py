@@ -4,6 +4,8 @@ import os
 import shlex
 from pathlib import Path
 
+from mechwright.systems import SYSTEM
+
 
 def word(text: str, *, always: bool = False) -> str:
     """A word in quotes where it needs them; ``always`` one with brackets.
@@ -13,7 +15,7 @@ def word(text: str, *, always: bool = False) -> str:
     >>> word("pair.toml"), word("my pair.toml")
     ('pair.toml', "'my pair.toml'")
     """
-    if os.name == "nt" or (always and not set('"$`\\!') & set(text)):
+    if SYSTEM == "win32" or (always and not set('"$`\\!') & set(text)):
         return f'"{text}"' if always or " " in text else text
     return shlex.quote(text)
 

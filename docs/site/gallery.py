@@ -7,6 +7,7 @@ from functools import cached_property
 from html import escape
 from pathlib import Path
 
+import proven
 from stills import still
 from tree import ROOT
 
@@ -159,6 +160,7 @@ def page_of(example: Example, motion: Iterable[str] = (), findings: Iterable[str
         example.text.strip(),
         "```",
         "",
+        *proven.lines(example.name),
         *findings,
     ]
     return "\n".join(rows) + "\n"
@@ -184,6 +186,31 @@ def _briefly(said: str) -> str:
     return escape(said.split(". ")[0].split(": ")[0].rstrip(".").replace("`", ""))
 
 
+def _counted(programs: int) -> str:
+    return f"{programs} program{'s' if programs > 1 else ''}"
+
+
+def twenty(every: dict[str, Example]) -> list[str]:
+    """Lines with a card for each mechanism whose page shows parts and proof as well."""
+    shown = proven.entries()
+    if not shown:
+        return []
+    programs = sum(len(one["programs"]) for one in shown.values())
+    rows = [f"## {len(shown)} mechanisms with their parts and {programs} proven programs", ""]
+    rows += ['<div class="cards" markdown>', ""]
+    for name, one in shown.items():
+        worst = max(program["leftover_um"] for program in one["programs"])
+        minutes = sum(program["minutes"] for program in one["programs"])
+        rows += [
+            f'<a class="card" href="{name}.html#its-parts-and-their-proof">'
+            f'<img src="{name}/still.svg" alt="{name}" loading="lazy">'
+            f"<b>{name}</b><span>{_briefly(every[name].said)}. {_counted(len(one['programs']))}, "
+            f"{minutes:.0f} min; at most {worst:g} µm left</span></a>",
+            "",
+        ]
+    return [*rows, "</div>", ""]
+
+
 def index(every: list[Example]) -> str:
     """The page with a card for every example."""
     rows = [
@@ -193,6 +220,7 @@ def index(every: list[Example]) -> str:
         " `mechwright build` makes of one besides stands on the [tour](../README.md).",
         "",
     ]
+    rows += twenty({one.name: one for one in every})
     for family in FAMILIES:
         title = title_of(family)
         rows += [f"## {title}", "", '<div class="cards" markdown>', ""]

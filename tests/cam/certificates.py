@@ -12,7 +12,8 @@ from by_control import BY_NAME
 from mechwright_cad.exporters import DxfExporter
 from mechwright_cam.machining import Machined
 from mechwright_cam.pages.certificate.content import certificate
-from mechwright_cam.pages.certificate.page import CERTIFICATE, sealed
+from mechwright_cam.pages.certificate.page import sealed
+from mechwright_cam.program.endings import CERTIFICATE
 from mechwright_check.__main__ import main
 
 Change = Callable[[dict[str, Any]], None]

@@ -378,7 +378,7 @@ def test_every_place_that_a_triangle_covers_has_its_height(angle):
     found = Heights.of(points, np.array([[0, 1, 2]]))
     triangle = shapely.Polygon(turned)
     for i, j in np.ndindex(found.low.shape):
-        x, y = (np.array(found.corner) + (i, j)) * CELL
+        x, y = np.add(found.corner, (i, j)) * CELL
         place = shapely.box(x, y, x + CELL, y + CELL)
         if triangle.covers(place):
             heights = shapely.get_coordinates(place) @ (0.3, -0.2)

@@ -127,7 +127,7 @@ def test_an_interrupted_run_leaves_the_old_files(tmp_path: Path, monkeypatch: py
 def test_without_an_atomic_exchange_two_renames_do_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(files, "_exchange", lambda one, two: False)
+    monkeypatch.setattr(files, "exchange", lambda one, two: False)
     target = tmp_path / "out"
     run(target, "build", x="old")
     run(target, "build", x="new")
@@ -136,7 +136,7 @@ def test_without_an_atomic_exchange_two_renames_do_it(
 
 
 def test_a_second_rename_that_fails_is_undone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "_exchange", lambda one, two: False)
+    monkeypatch.setattr(files, "exchange", lambda one, two: False)
     target = tmp_path / "out"
     run(target, "build", x="old")
     rename, calls = os.replace, []

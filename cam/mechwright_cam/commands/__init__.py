@@ -10,6 +10,7 @@ from mechwright.cli.command import AsJson, Command, Curves, DesignFiles, OutputF
 from mechwright.contracts.plugin import Plugin
 from mechwright.errors import DesignError
 from mechwright.plugins.hookspecs import hookimpl
+from mechwright_cam.commands.send import Send
 
 
 class Cam(Command):
@@ -311,5 +312,5 @@ class ShopFile(Command):
 
 @hookimpl
 def mechwright_register() -> list[type[Plugin]]:
-    """The commands that make and prove programs, list tools, and write a shop file."""
-    return [Cam, Verify, Tools, ShopFile]
+    """The commands that make, prove and send programs, list tools, and write a shop file."""
+    return [Cam, Verify, Send, Tools, ShopFile]

@@ -1,6 +1,5 @@
 """The command ``demo``: the README's example, built from what is installed."""
 
-import os
 import sys
 import webbrowser
 from importlib.resources import files
@@ -14,6 +13,7 @@ from mechwright.output.folder import write_new
 from mechwright.pipeline import Wanted
 from mechwright.reading import regular
 from mechwright.shell import file_word
+from mechwright.systems import has_windows
 
 DESIGN = "elliptic-pair.toml"
 """The example's name in its folder; in the package it is ``demo.toml``."""
@@ -64,8 +64,7 @@ def _place(path: Path, text: str) -> None:
 
 def _open(page: Path) -> bool:
     """Open a page in a browser with a window; one that takes over the terminal is none."""
-    windows = sys.platform in {"darwin", "win32"} or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
     try:
-        return bool(windows) and webbrowser.open(page.resolve().as_uri())
+        return has_windows() and webbrowser.open(page.resolve().as_uri())
     except webbrowser.Error:
         return False

@@ -13,6 +13,6 @@ def open_host(*, warn: bool = True) -> Host:
 
 
 def warn_broken(found: Host) -> None:
-    """Name the plugins that could not be used, on standard error."""
-    for broken in found.broken:
-        echo(f"mechwright: warning: {broken}", err=True)
+    """Name the plugins that could not be used, and those that soon cannot be, on standard error."""
+    for one in (*found.broken, *found.outdated):
+        echo(f"mechwright: warning: {one}", err=True)

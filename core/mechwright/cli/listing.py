@@ -37,9 +37,10 @@ def families(as_json: bool) -> None:
         listing = {
             "families": [_described(entry) for _, entry in sorted(found.of(Family).items())],
             **others,
-            "broken": [
-                {"distribution": b.distribution, "plugin": b.plugin, "reason": b.reason} for b in found.broken
-            ],
+            **{
+                what: [{"distribution": b.distribution, "plugin": b.plugin, "reason": b.reason} for b in some]
+                for what, some in (("broken", found.broken), ("outdated", found.outdated))
+            },
         }
         typer.echo(json.dumps(listing, indent=2))
         return

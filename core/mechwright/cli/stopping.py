@@ -9,14 +9,13 @@ from types import FrameType
 from typing import NoReturn
 
 from mechwright.cli.streams import say
+from mechwright.systems import STOPS
 
 NOTHING = "nothing was written"
 """What stands when work that writes nothing, or only at its end, is stopped."""
 
 _FIRST = 128
 """What shells add to the number of a signal to make an exit code of it."""
-
-_STOPS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 _heard: list[int] = []
 
@@ -33,7 +32,7 @@ def heard() -> Iterator[None]:
     if threading.current_thread() is threading.main_thread():
         # Whoever ignores the end of a terminal, as nohup does, goes on doing so.
         usual = (signal.SIG_DFL, signal.default_int_handler)
-        before = {one: handler for one in _STOPS if (handler := signal.getsignal(one)) in usual}
+        before = {one: handler for one in STOPS if (handler := signal.getsignal(one)) in usual}
     for number in before:
         signal.signal(number, _stop)
     try:
@@ -56,7 +55,7 @@ def _stop(number: int, _: FrameType | None) -> None:
 def deaf() -> None:
     """Let nothing stop the process any more; its last words are being said."""
     if threading.current_thread() is threading.main_thread():
-        for number in _STOPS:
+        for number in STOPS:
             signal.signal(number, signal.SIG_IGN)
 
 

@@ -3,11 +3,12 @@
 import contextlib
 import ctypes
 import os
-import signal
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+from mechwright.systems import alarm, alarm_left
 
 
 class TimeUpError(BaseException):
@@ -34,13 +35,13 @@ def in_time(seconds: float, who: str = "") -> Iterator[None]:
     if not seconds or threading.current_thread() is not threading.main_thread():
         yield
         return
-    alarm = hasattr(signal, "setitimer")
-    if signal.getitimer(signal.ITIMER_REAL)[0] if alarm else _watched:
+    left = alarm_left()
+    if _watched if left is None else left:
         yield
         return
     over: list[bool] = []
     try:
-        with _alarm(seconds, over, who) if alarm else _watch(seconds, over):
+        with _watch(seconds, over) if left is None else _alarm(seconds, over, who):
             yield
     except KeyboardInterrupt:
         raise
@@ -64,13 +65,8 @@ def _alarm(seconds: float, over: list[bool], who: str) -> Iterator[None]:
             os._exit(2)
         raise TimeUpError(_words(seconds))
 
-    before = signal.signal(signal.SIGALRM, up)
-    try:
-        signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
+    with alarm(seconds, AGAIN, up):
         yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
 
 
 @contextmanager

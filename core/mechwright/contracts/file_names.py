@@ -1,12 +1,12 @@
 """Names of files that every file system takes and keeps apart."""
 
-import sys
 import unicodedata
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated
 
 from mechwright.contracts.guard import UnsoundError
+from mechwright.systems import SYSTEM
 
 DEVICES = frozenset(
     (
@@ -72,7 +72,7 @@ def free_name(name: str, taken: Iterable[str]) -> str:
     return found
 
 
-def path_fault(path: Path, system: str = sys.platform) -> str:
+def path_fault(path: Path, system: str = SYSTEM) -> str:
     """What is wrong with a name that a user gives on this system: :func:`name_fault` on Windows alone.
 
     There a name ``a:b`` is a stream of the file ``a``, and ``nul`` takes everything and holds nothing. A path

@@ -26,7 +26,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from mechwright.contracts.stops import STOPS
+from mechwright.systems import STOPS, block_signals, blocked_signals, signals
 
 
 @dataclass(frozen=True)
@@ -150,21 +150,19 @@ def opened_again(stream: Any, number: int) -> Any:
 
 _HEARD = (
     *STOPS,
-    *(getattr(signal, name) for name in ("SIGALRM", "SIGCHLD", "SIGPIPE") if hasattr(signal, name)),
+    *signals("SIGALRM", "SIGCHLD", "SIGPIPE"),
 )
 
 
 def _signals() -> tuple[Any, ...]:
-    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, ()) if hasattr(signal, "pthread_sigmask") else ()
-    return (frozenset(blocked), *map(signal.getsignal, _HEARD))
+    return (blocked_signals(), *map(signal.getsignal, _HEARD))
 
 
 def _handlers(was: tuple[Any, ...]) -> None:
     for number, handler in zip(_HEARD, was[1:], strict=True):
         if handler is not None:  # one that is not Python's cannot be set from here
             signal.signal(number, handler)
-    if hasattr(signal, "pthread_sigmask"):
-        signal.pthread_sigmask(signal.SIG_SETMASK, was[0])
+    block_signals(was[0])
 
 
 def _of(module: str, read: Callable[[Any], Any]) -> Callable[[], Any]:

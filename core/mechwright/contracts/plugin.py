@@ -23,6 +23,9 @@ from mechwright.contracts.guard import UnsoundError, time_limit, watched
 HOOK_API = 2
 """Version of the contracts of this program; a class states the one that it was written for."""
 
+HOOK_API_SINCE = "0.1"
+"""The minor version of this program that brought it, and the only one that reads the version before, too."""
+
 
 class Plugin(ABC):
     """The base of all contracts.

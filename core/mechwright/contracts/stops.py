@@ -11,8 +11,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-STOPS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
-"""Signals that stop a program."""
+from mechwright.systems import STOPS
 
 _WORDS = "raises KeyboardInterrupt, which is the keyboard's; raise an error"
 

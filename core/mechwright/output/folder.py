@@ -1,13 +1,11 @@
 """Writing output folders: all of the new files or all of the old ones, never a mixture."""
 
 import codecs
-import ctypes
 import hashlib
 import json
 import os
 import shutil
 import stat
-import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,6 +25,7 @@ from mechwright.output.staging import (
     write_through,
 )
 from mechwright.reading import kind_of, read_bytes
+from mechwright.systems import exchange
 
 MANIFEST = "manifest.json"
 Content = str | bytes | Iterable[bytes]
@@ -36,7 +35,6 @@ C = TypeVar("C", bound=Content)
 
 _OPEN_ELSEWHERE = (5, 32)
 """Windows' numbers of the errors by which it refuses to move what a program has open."""
-_AT_FDCWD, _RENAME_EXCHANGE = -100, 2
 
 
 class ChangedError(OutputError):
@@ -248,7 +246,7 @@ def _swap(staging: Path, target: Path) -> None:
     if not target.exists():
         move(staging, target)
         return
-    if _exchange(staging, target):
+    if exchange(staging, target):
         return
     # No atomic exchange on this system: two renames, undone if the second fails.
     backup = staging.with_name(staging.name + OLD)
@@ -259,18 +257,6 @@ def _swap(staging: Path, target: Path) -> None:
         move(backup, target)
         raise
     removed(backup)
-
-
-def _exchange(one: Path, two: Path) -> bool:
-    """Exchange two folders atomically where the system can (Linux's renameat2)."""
-    if not sys.platform.startswith("linux"):
-        return False
-    try:
-        call = ctypes.CDLL(None, use_errno=True).renameat2
-    except (OSError, AttributeError):
-        return False
-    done: int = call(_AT_FDCWD, os.fsencode(one), _AT_FDCWD, os.fsencode(two), _RENAME_EXCHANGE)
-    return done == 0
 
 
 def write_new(path: Path, text: str | bytes, *, replace: bool = False) -> None:

@@ -14,17 +14,14 @@ import contextlib
 import errno
 import hashlib
 import os
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-if sys.platform == "win32":
-    import msvcrt
-else:
-    import fcntl
+from mechwright.systems import FOLDERS_OPEN as FOLDERS_OPEN
+from mechwright.systems import LOOK_FLAGS, try_lock
 
 PATIENCE = 20.0
 """Seconds until a folder lock has to be free: whoever has it brings one file to the disk."""
@@ -51,7 +48,7 @@ def folder_lock(folder: Path, patience: float = PATIENCE) -> Iterator[bool]:
 
 
 def _opened(folder: Path) -> int:
-    if sys.platform == "win32":  # opens no folders: the lock is that of a file in the user's temporary folder
+    if not FOLDERS_OPEN:  # the lock is that of a file in the user's temporary folder
         name = hashlib.sha256(os.path.normcase(os.path.realpath(folder)).encode()).hexdigest()
         place = Path(tempfile.gettempdir(), f"mechwright-{name[:32]}.lock")
         return os.open(place, os.O_RDWR | os.O_CREAT)
@@ -72,20 +69,6 @@ def _locked(handle: int, folder: Path, patience: float) -> bool:
         time.sleep(_LOOK)
 
 
-def try_lock(handle: int) -> bool:
-    """Whether the lock of an open file is now this handle's; raises OSError where there are no locks."""
-    try:
-        if sys.platform == "win32":
-            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-        else:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except (BlockingIOError, PermissionError):
-        return False
-    return True
-
-
-FOLDERS_OPEN = sys.platform != "win32"
-"""Whether the system opens folders, and moves what is open."""
 LIFE = "-life"
 """Behind the name of a staging folder: the file that has its life lock where folders are not opened."""
 
@@ -121,7 +104,7 @@ def life_lock(path: Path) -> Iterator[bool]:
 def lives(path: Path) -> bool:
     """Whether a process that lives has the life lock; raises OSError where that cannot be seen."""
     if FOLDERS_OPEN:
-        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        handle = os.open(path, LOOK_FLAGS)
     else:
         try:
             handle = os.open(path.with_name(path.name.removesuffix(LIFE) + LIFE), os.O_RDWR)

@@ -10,7 +10,6 @@ import os
 import re
 import secrets
 import shutil
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -19,14 +18,12 @@ from pathlib import Path
 from typing import IO
 
 from mechwright.output.locking import LIFE, folder_lock, life_lock, lives
+from mechwright.systems import MOVE_AGAIN
 
 MARK = ".mechwright-"
 """Between the name of a target and the random end of the name of what is made for it: nobody else's."""
 OLD = "-old"
 """Behind the name of a staging folder: what stood in the target's place, for as long as two renames take."""
-
-_AGAIN = (0.1, 0.4, 1.0) if sys.platform == "win32" else ()
-"""Seconds before another try to move: Windows moves nothing that is open, and scanners open what is new."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +105,7 @@ def write_through(
 
 def move(source: Path, target: Path) -> None:
     """Give a file or folder, which nothing has open, another name; a file that has that name is replaced."""
-    for wait in _AGAIN:
+    for wait in MOVE_AGAIN:
         try:
             source.replace(target)
         except PermissionError:

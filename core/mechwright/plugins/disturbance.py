@@ -11,7 +11,6 @@ import importlib.abc
 import importlib.machinery
 import numbers
 import os
-import signal
 import sys
 import threading
 import types
@@ -22,6 +21,7 @@ from itertools import product
 from typing import Any
 
 from mechwright.plugins.host import BUILT_IN
+from mechwright.systems import on_fork, process_state
 
 _OWN = frozenset(
     (
@@ -72,8 +72,7 @@ class Disturbance(importlib.abc.MetaPathFinder):
         self._process, self._environment = _process(), dict(os.environ)
         self._threads = set(threading.enumerate())
         self._forks: list[int] = []
-        if hasattr(os, "register_at_fork"):
-            os.register_at_fork(after_in_parent=lambda: self._forks.append(1))
+        on_fork(lambda: self._forks.append(1))
         self._audits = list(_audits())
         self._finders, self._path, self._hooks = list(sys.meta_path), list(sys.path), list(sys.path_hooks)
         # What looks is kept apart from what may be spoilt.
@@ -325,21 +324,4 @@ def _process() -> dict[str, Any]:
     found["kinds of types (register of collections.abc or numbers)"] = _kinds()
     found["the tracing function"] = sys.gettrace()
     found["the profiling function"] = sys.getprofile()
-    if hasattr(signal, "getitimer"):
-        timers = (signal.ITIMER_VIRTUAL, signal.ITIMER_PROF)
-        found["a timer"] = [signal.getitimer(one)[0] > 0 for one in timers]
-    if hasattr(os, "getpriority"):
-        found["the priority"] = os.getpriority(os.PRIO_PROCESS, 0)
-    for what, name in (("the user", "geteuid"), ("the group", "getegid"), ("the groups", "getgroups")):
-        if hasattr(os, name):
-            found[what] = getattr(os, name)()
-    if hasattr(os, "sched_getaffinity"):
-        found["the cores"] = os.sched_getaffinity(0)
-    try:
-        import resource
-    except ImportError:  # not on Windows
-        return found
-    for name in dir(resource):
-        if name.startswith("RLIMIT_"):
-            found[f"the limit {name}"] = resource.getrlimit(getattr(resource, name))
-    return found
+    return found | process_state()

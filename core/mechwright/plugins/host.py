@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any, Generic, NoReturn, TypeVar
 import pluggy
 
 from mechwright.contracts.guard import TimeUpError, loading
-from mechwright.contracts.plugin import HOOK_API, Plugin, contract_of, methods_of
+from mechwright.contracts.plugin import Plugin, contract_of, methods_of
 from mechwright.contracts.result import Result, found_by
 from mechwright.contracts.stops import is_stop
 from mechwright.errors import PluginError, did_you_mean, shortened
 from mechwright.plugins import hookspecs
 from mechwright.plugins.trial import Candidate, verdicts
+from mechwright.plugins.versions import api_fault, api_warning, program
 
 if TYPE_CHECKING:
     from mechwright.contracts.family import Family
@@ -54,6 +55,18 @@ class Broken:
 
 
 @dataclass(frozen=True, slots=True)
+class Outdated:
+    """A class that is used, and that the next minor version of this program will refuse."""
+
+    distribution: str
+    plugin: str
+    reason: str
+
+    def __str__(self) -> str:
+        return f"plugin {self.plugin} of {self.distribution}: {self.reason}"
+
+
+@dataclass(frozen=True, slots=True)
 class Registered(Generic[T]):
     """A registered class and the distribution it comes from."""
 
@@ -76,10 +89,13 @@ class Host:
         Contract to name to registration.
     broken
         What could not be used, and why.
+    outdated
+        What is used and will be refused, and from when on.
     """
 
     registered: dict[type[Plugin], dict[str, Registered[Any]]] = field(default_factory=dict)
     broken: list[Broken] = field(default_factory=list)
+    outdated: list[Outdated] = field(default_factory=list)
 
     def of(self, contract: type[C]) -> "dict[str, Registered[C]]":
         """What is registered of a contract, name to registration."""
@@ -129,6 +145,8 @@ class Host:
                     fail(reason)
                 else:
                     self._take(cls, distribution, plugin, fail)
+                    if warning := api_warning(cls.api, program()):
+                        self.outdated.append(Outdated(distribution, plugin, f"{cls.__name__} {warning}"))
 
     def _take(self, cls: type[Plugin], distribution: str, plugin: str, fail: Callable[[str], object]) -> None:
         """Register a class that is well made."""
@@ -197,9 +215,8 @@ def _class_fault(cls: Any, distribution: str) -> str:
     contract = contract_of(cls)
     if contract is None:
         return f"{cls.__name__} is a contract itself; register classes that derive from it"
-    api = getattr(cls, "api", None)
-    if api != HOOK_API:
-        return f"{cls.__name__} was written for hook API {api}; this is {HOOK_API}"
+    if fault := api_fault(getattr(cls, "api", None), program()):
+        return f"{cls.__name__} {fault}"
     if taken := [name for name in _ASKING if getattr(cls, name, None) is not getattr(contract, name, None)]:
         return f"{cls.__name__} has a {taken[0]} of its own, by which everybody asks it; leave that out"
     name = getattr(cls, "name", None)

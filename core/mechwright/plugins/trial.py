@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from importlib.metadata import EntryPoint
 
 from mechwright.contracts import guard
+from mechwright.systems import kill_group
 
 VERDICTS = "MECHWRIGHT_PLUGIN_VERDICTS"
 """Environment variable by which processes that this one starts know what it has found, as JSON."""
@@ -110,7 +111,7 @@ def _answers(setup: bytes, seconds: float) -> tuple[int | None, list[tuple[int, 
         except subprocess.TimeoutExpired:
             pass
         finally:
-            _kill(process)
+            kill_group(process)
         out.seek(0)
         lines = out.read().decode(errors="replace").splitlines()
     found = []
@@ -119,16 +120,6 @@ def _answers(setup: bytes, seconds: float) -> tuple[int | None, list[tuple[int, 
             number, when, said = json.loads(line)
             found.append((number, when, said))
     return code, found
-
-
-def _kill(process: "subprocess.Popen[bytes]") -> None:
-    """End it, and what it has started."""
-    with contextlib.suppress(OSError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
-    process.wait()
 
 
 def _death(code: int | None, when: str) -> str:

@@ -4,12 +4,13 @@ Planar geometry and large arrays release the interpreter's lock, so threads do t
 """
 
 import contextlib
-import os
 import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
+
+from mechwright.systems import usable_cores
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -35,11 +36,7 @@ def limited_cores(count: int) -> Iterator[None]:
 
 def available_cores() -> int:
     """How many cores this process may use: its limit, else the cores that the system binds it to."""
-    if _limit:
-        return _limit[0]
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    return _limit[0] if _limit else usable_cores()
 
 
 def split_cores(budget: int, count: int) -> list[int]:

@@ -1,5 +1,5 @@
 """Certificates: what makes it cheap to check a program without any code of this project."""
 
-from mechwright_cam.pages.certificate.page import CERTIFICATE, Certificates
+from mechwright_cam.pages.certificate.page import Certificates
 
-__all__ = ["CERTIFICATE", "Certificates"]
+__all__ = ["Certificates"]

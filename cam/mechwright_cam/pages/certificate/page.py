@@ -13,9 +13,7 @@ from mechwright_cam.pages.certificate.content import certificate
 from mechwright_cam.pages.file_names import machined, named
 from mechwright_cam.pages.registered import COMMANDS, DOING, drawings, setup_sheets
 from mechwright_cam.pages.setup_sheet import SHEET
-
-CERTIFICATE = ".certificate.json"
-"""What the name of each ends with."""
+from mechwright_cam.program.endings import CERTIFICATE
 
 
 class Certificates(Page):
