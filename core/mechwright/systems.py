@@ -8,6 +8,7 @@ import contextlib
 import ctypes
 import os
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -179,6 +180,14 @@ def process_state() -> dict[str, Any]:
             if name.startswith("RLIMIT_"):
                 found[f"the limit {name}"] = resource.getrlimit(getattr(resource, name))
     return found
+
+
+def is_private(folder: Path) -> bool:
+    """Whether nobody but the user may write into a folder, as far as the system says; raises OSError."""
+    if sys.platform == "win32":  # folders below the user's own are the user's
+        return True
+    state = folder.stat()
+    return state.st_uid == os.getuid() and not state.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
 def has_windows() -> bool:

@@ -207,6 +207,7 @@ def test_a_collision_that_a_second_process_finds_is_told_first(fault, tmp_path, 
     for page in ("DrawingFiles", "ProgramFiles", "ProofFile", "SetupSheets", "JobPages"):
         monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.files", nothing)
         monkeypatch.setattr(f"mechwright_cam.pages.registered.{page}.names", lambda self, build, wanted: [])
+    monkeypatch.setattr("mechwright_cam.pages.certificate.page.Certificates.files", nothing)
     monkeypatch.setattr(Solids, "warm", lambda self: None)
     monkeypatch.setattr(Solids, "begin", lambda self: None)
     monkeypatch.setattr(Solids, "in_second_process", True)

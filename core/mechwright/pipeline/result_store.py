@@ -13,6 +13,7 @@ from platformdirs import user_cache_path
 
 from mechwright.kernels import kernels
 from mechwright.plugins.host import BUILT_IN, Host, host
+from mechwright.systems import SYSTEM
 from mechwright.worker_pool.store import ResultStore
 
 P = ParamSpec("P")
@@ -46,7 +47,7 @@ def _others(found: Host) -> bool:
 
 def _stamp() -> bytes:
     """What results depend on besides what they are made from: code, libraries, Python, processor."""
-    stamp = hashlib.sha256(f"{sys.version} {sys.platform} {kernels()}".encode())
+    stamp = hashlib.sha256(f"{sys.version} {SYSTEM} {kernels()}".encode())
     for library in LIBRARIES:
         try:
             stamp.update(f"{library} {version(library)}\n".encode())

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
+from mechwright.systems import is_private
 from mechwright.worker_pool.content import NoContentError, content_digest
 from mechwright.worker_pool.pickling import KnownPickler, KnownUnpickler
 
@@ -71,16 +72,13 @@ class ResultStore:
     def _prepared(self) -> bool:
         try:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-            state = self.folder.stat()
+            private = is_private(self.folder)
         except OSError as error:
             self._stop(error.strerror or str(error))
             return False
-        if hasattr(os, "getuid") and (
-            state.st_uid != os.getuid() or state.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
-        ):
+        if not private:
             self._stop("others may write there; make it yours alone with chmod 700")
-            return False
-        return True
+        return private
 
     def _stop(self, why: str) -> None:
         self._usable = False
