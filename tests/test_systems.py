@@ -154,21 +154,6 @@ def test_signals_and_cores_of_this_system():
     assert 1 <= systems.usable_cores() <= (os.cpu_count() or 1)
 
 
-@pytest.mark.parametrize(
-    ("system", "place"),
-    [
-        ("linux", ".local/share/FreeCAD"),
-        ("darwin", "Library/Application Support/FreeCAD"),
-        ("win32", "AppData/Roaming/FreeCAD"),
-    ],
-)
-def test_the_users_own_folder_is_named_on_every_system(tmp_path, monkeypatch, system, place):
-    monkeypatch.setattr(Path, "home", lambda: tmp_path)
-    for name in ("XDG_DATA_HOME", "APPDATA"):
-        monkeypatch.delenv(name, raising=False)
-    assert systems.application_data("FreeCAD", system) == tmp_path / place
-
-
 def test_a_process_that_leads_a_session_is_ended_with_what_it_has_started():
     start = "import subprocess, sys; print(subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60)']).pid, flush=True); input()"
     process = subprocess.Popen(

@@ -193,13 +193,3 @@ def is_private(folder: Path) -> bool:
 def has_windows() -> bool:
     """Whether programs can open windows here."""
     return SYSTEM in {"darwin", "win32"} or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
-
-
-def application_data(name: str, system: str = SYSTEM) -> Path:
-    """The folder in which a program keeps what is the user's."""
-    home = Path.home()
-    if system == "win32":
-        return Path(os.environ.get("APPDATA") or home / "AppData" / "Roaming") / name
-    if system == "darwin":
-        return home / "Library" / "Application Support" / name
-    return Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share") / name

@@ -189,7 +189,7 @@ def test_a_folder_that_is_not_there_is_one_line(command_line, tmp_path, monkeypa
 
 
 def test_the_users_own_folder_is_taken_by_default(command_line, tmp_path, monkeypatch):
-    monkeypatch.setattr(install, "application_data", lambda name: tmp_path / name)
+    monkeypatch.setattr(install, "user_data_path", lambda name, **_: tmp_path / name)
     assert command_line("freecad")[0] == 2
     (tmp_path / "FreeCAD").mkdir()
     assert command_line("freecad")[0] == 0

@@ -4,11 +4,12 @@ import json
 import sys
 from pathlib import Path
 
+from platformdirs import user_data_path
+
 from mechwright.cli.telling import echo
 from mechwright.errors import OutputError
 from mechwright.output.folder import write_new
 from mechwright.reading import read_bytes
-from mechwright.systems import application_data
 
 ADDON = Path(__file__).parent / "addon"
 NAME = "Mechwright"
@@ -47,7 +48,7 @@ def install(folder: Path | None, *, force: bool) -> None:
 
 def _own() -> Path:
     """The user's folder of add-ons: FreeCAD 0.20 to 1.0, by system."""
-    data = application_data("FreeCAD")
+    data = user_data_path("FreeCAD", appauthor=False, roaming=True)
     if data.is_dir():
         (data / "Mod").mkdir(exist_ok=True)
     return data / "Mod"
