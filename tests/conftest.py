@@ -13,8 +13,8 @@ from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 from slow_tests import listed
 
-collect_ignore = ["cam/planner_machine"]
-"""Files of a machine that LinuxCNC runs."""
+collect_ignore = ["cam/planner_machine", "cam/freecad_bodies.py", "cam/freecad_panel.py"]
+"""Files of a machine that LinuxCNC runs, and scripts that run inside FreeCAD."""
 
 REQUIRE_CLIENTS = "MECHWRIGHT_REQUIRE_CLIENTS"
 PROGRAMS = {

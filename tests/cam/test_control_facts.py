@@ -130,7 +130,7 @@ def test_a_retract_of_its_own_is_written_and_advised() -> None:
 
 
 def test_nobody_asks_for_a_control_by_its_name() -> None:
-    """Names stand in the controls' own files, and once as the default of the design file."""
+    """Names stand in the controls' own files, as the default of the design file, and with hosts that read one."""
     assert len(SOURCES) > 200
     quoted = re.compile(rf"""["']({"|".join(BY_NAME)})["']""")
     named = {
@@ -138,7 +138,7 @@ def test_nobody_asks_for_a_control_by_its_name() -> None:
         for path in SOURCES
         if path.parent.name != "controls" and quoted.search(path.read_text(encoding="utf-8"))
     }
-    assert named == {"settings.py"}
+    assert named == {"settings.py", "cncjs.py", "fluidnc.py"}
     for name in BY_NAME:
         path = Path(mechwright_cam.__file__).parent / "controls" / f"{name.replace('-', '_')}.py"
         assert set(quoted.findall(path.read_text(encoding="utf-8"))) == {name}

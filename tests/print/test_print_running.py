@@ -11,9 +11,10 @@ from mechwright.designs.design import load
 from mechwright.pipeline import Build
 from mechwright.pipeline.tolerances import TolerancesTable
 from mechwright.pipeline.tolerances.by_process import MIDDLE, with_spread
+from mechwright.pipeline.tolerances.running import ROOM
 from mechwright_print.as_made import AsPrinted, printed_spread
 from mechwright_print.job.print_job import PrintJob
-from mechwright_print.rules.running import ROOM, backlash_rule, running_rule
+from mechwright_print.rules.running import backlash_rule, running_rule
 
 GENEVA = Path("examples/geneva-straight.toml").read_text()
 GEARS = Path("examples/spur-gears.toml").read_text()

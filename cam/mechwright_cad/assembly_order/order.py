@@ -20,6 +20,7 @@ from mechwright.contracts.bodies import rigid
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.mechanics.mating.rounds import PARALLEL
+from mechwright.pipeline.result_store import recalled
 from mechwright.standards import circlips
 from mechwright_cad.assembly_order.barred import Ways
 from mechwright_cad.assembly_order.blocking import Blocking
@@ -69,6 +70,9 @@ class Order:
         """All steps; those of a group stand before the step in which it goes to its place."""
         if not self.bodies:
             return ()
+        return recalled(steps_of, self._given, self._made_steps)
+
+    def _made_steps(self) -> tuple[Step, ...]:
         given = Constraints(
             self.table,
             self.holding,
@@ -83,7 +87,11 @@ class Order:
 
     @cached_property
     def _whole(self) -> Level:
-        return self._together(tuple(range(len(self.bodies))))
+        return recalled(Level, self._given, lambda: self._together(tuple(range(len(self.bodies)))))
+
+    @property
+    def _given(self) -> tuple[object, ...]:
+        return self.bodies, self.motion, self.sample
 
     @property
     def has_ways(self) -> bool:

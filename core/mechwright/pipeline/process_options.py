@@ -88,8 +88,8 @@ def options_table(options: Sequence[ProcessOption]) -> list[str]:
     r"""The options in columns, a star beside what is chosen; nothing without plates.
 
     >>> print(*options_table([ProcessOption("disc", "mill", True, seconds=90.0)]), sep="\n")
-    part  process   time  what the plate loses
-    disc  mill*  1.5 min
+    part  process     time  what the plate loses
+    disc  mill*    1.5 min
     """
     rows = [("part", "process", "time", "what the plate loses"), *map(_row, options)]
     if len(rows) == 1:

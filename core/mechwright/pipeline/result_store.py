@@ -73,19 +73,24 @@ def _files() -> set[Path]:
     }
 
 
+def recalled(what: Callable[..., object], given: tuple[object, ...], make: Callable[[], R]) -> R:
+    """What ``make`` makes of all that is given, kept in :func:`result_store` as a result of ``what``."""
+    store = result_store()
+    if store is None:
+        return make()
+    place = store.kept(what, given)
+    for result in place.read():
+        return cast("R", result)
+    made = make()
+    place.write(made)
+    return made
+
+
 def stored(function: Callable[P, R]) -> Callable[P, R]:
     """A function of a module without side effects, whose results are kept in :func:`result_store`."""
 
     @wraps(function)
     def found(*given: P.args, **named: P.kwargs) -> R:
-        store = result_store()
-        if store is None:
-            return function(*given, **named)
-        place = store.kept(function, (given, named))
-        for result in place.read():
-            return cast("R", result)
-        made = function(*given, **named)
-        place.write(made)
-        return made
+        return recalled(function, (given, named), lambda: function(*given, **named))
 
     return found
