@@ -34,9 +34,11 @@ def test_all_plates_or_single_ones_are_printed(tmp_path, request):
 
 def test_a_plate_larger_than_the_bed_is_refused_with_the_line_that_mills_it(tmp_path, request):
     small = build(tmp_path, request, '"print"', bed={"x": 100, "y": 100})
-    (found,) = [one for one in ChosenProcesses().findings(small) if "wheel" in one.message]
+    assert not ChosenProcesses().findings(small), "the printer's own rules tell it, once"
+    (found,) = [one for one in Printing().objections(small.parts["wheel"], small) if one.code == "print.bed"]
     assert found.severity == "error"
     assert 'parts.wheel = "mill"' in found.remedy
+    assert Printing().refuses(small.parts["wheel"], small) == found.message
     assert Printing().refuses(small.parts["crank"], small) is None
 
 

@@ -78,7 +78,7 @@ def report(printer: Printer, of: PrinterFit, measured: Measured) -> Iterator[str
     """What to say of a fit, a line each."""
     yield f"{len(of.residuals)} sizes, spread {of.spread:.3f} mm (standard deviation about the fit)"
     for name in ("hole", "slot", "pin", "wall", "foot"):
-        yield f"{name} {of.values[name]:+.3f} mm, standard error {of.errors[name]:.3f} mm"
+        yield f"{name} {round(of.values[name], 3) + 0.0:+.3f} mm, standard error {of.errors[name]:.3f} mm"
     for axis in ("x", "y"):
         growth, error = 1000 * (of.values[f"scale_{axis}"] - 1), 1000 * of.errors[f"scale_{axis}"]
         yield f"lengths along {axis.upper()} {growth:+.2f} mm in a metre, standard error {error:.2f} mm"

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from pydantic import Field
 
-from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.model_schema import model_schema
 from mechwright.contracts.parameters import Parameters
 from mechwright.contracts.plugin import Plugin
 from mechwright.contracts.table import Table
 from mechwright.designs.tables import read_table
 from mechwright.designs.text import table_lines, toml
-from mechwright.errors import DesignError, did_you_mean
+from mechwright.errors import DesignError, MechwrightError, did_you_mean
 from mechwright.pipeline.build import Build
 from mechwright.pipeline.inspection import Inspection
 
@@ -196,7 +196,7 @@ def _refused(build: Build) -> Iterator[Finding]:
                 hint = did_you_mean(name, known) or f"there is: {', '.join(sorted(known))}"
                 lack = f"no process is named {name!r}; {hint}"
                 yield Finding.error("process.unknown", key, lack, stage=Stage.MACHINING)
-        elif why := known[name].refuses(part, build):
+        elif (why := known[name].refuses(part, build)) and not _is_told(known[name], part, build, why):
             able = sorted(other.name for other in known.values() if not other.refuses(part, build))
             yield Finding.error(
                 "process.refused",
@@ -206,6 +206,14 @@ def _refused(build: Build) -> Iterator[Finding]:
                 or "no other process that is installed makes it either; change the part",
                 stage=Stage.MACHINING,
             )
+
+
+def _is_told(process: Process, part: "Part", build: Build, why: str) -> bool:
+    """Whether the rules of the process tell the reason themselves, with a remedy of their own."""
+    try:
+        return any(one.message == why for one in errors(process.objections(part, build)))
+    except MechwrightError:
+        return False
 
 
 def _line(design: "Design", part: str, process: str) -> str:
