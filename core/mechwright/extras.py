@@ -8,7 +8,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
-from urllib.request import url2pathname
 
 from mechwright.errors import PluginError
 from mechwright.shell import word
@@ -128,4 +127,6 @@ def _sources() -> tuple[bool, Path | str | None]:
 
 
 def _path(address: str) -> Path:
+    from urllib.request import url2pathname  # it takes long to import, and few messages need it
+
     return Path(url2pathname(urlsplit(address).path))

@@ -5,23 +5,24 @@ the answer says so, and whoever asks has another way.
 """
 
 import contextlib
-import ctypes
 import os
 import signal
 import stat
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 if sys.platform == "win32":
     import msvcrt
 else:
     import fcntl
     import resource
+
+if TYPE_CHECKING:
+    import subprocess
 
 SYSTEM: str = sys.platform
 """``linux``, ``darwin`` or ``win32``."""
@@ -110,6 +111,8 @@ def exchange(one: Path, two: Path) -> bool:
     """Exchange two folders atomically where the system can (Linux's renameat2)."""
     if sys.platform != "linux":
         return False
+    import ctypes  # it takes long to import, and most commands have no use for it
+
     try:
         call = ctypes.CDLL(None, use_errno=True).renameat2
     except (OSError, AttributeError):
@@ -146,6 +149,8 @@ def killed_with_parent() -> bool:
     """
     if sys.platform != "linux":
         return False
+    import ctypes
+
     ctypes.CDLL(None).prctl(_PDEATHSIG, signal.SIGKILL)
     return True
 
@@ -153,6 +158,8 @@ def killed_with_parent() -> bool:
 def wait_for_end(parent: int) -> None:
     """Wait until the parent of this process, the process with that number, has ended."""
     if sys.platform == "win32":
+        import ctypes
+
         kernel = ctypes.WinDLL("kernel32")
         kernel.OpenProcess.restype = ctypes.c_void_p
         if handle := kernel.OpenProcess(_SYNCHRONIZE, False, parent):
