@@ -24,7 +24,7 @@ from mechwright.contracts.part import Part
 from mechwright.contracts.shape import Shape, ring
 from mechwright.pipeline.result_store import STORE, result_store
 from mechwright.plugins.host import Host, Registered
-from mechwright.worker_pool.content import NoContentError, content_digest
+from mechwright.worker_pool.content import KNOWN, NoContentError, content_digest
 from mechwright.worker_pool.sharing import shared
 from mechwright.worker_pool.store import ResultStore
 
@@ -43,6 +43,11 @@ class Bar:
     @cached_property
     def half(self) -> float:
         return self.length / 2
+
+
+@pytest.fixture(autouse=True)
+def _known(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mechwright.worker_pool.content.KNOWN", {*KNOWN, __name__.partition(".")[0]})
 
 
 def doubled(bar: Bar) -> tuple[Bar, float]:
@@ -98,6 +103,11 @@ def test_what_has_no_content_is_not_kept() -> None:
     for thing in (lambda: 1, (one for one in ()), memoryview(b"")):
         with pytest.raises(NoContentError):
             content_digest(thing)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mechwright.worker_pool.content.KNOWN", KNOWN)
+        for thing in (Bar(1.0), doubled):
+            with pytest.raises(NoContentError, match="has no name that tells what it does"):
+                content_digest(thing)
     loop: list[object] = []
     loop.append(loop)
     with pytest.raises(NoContentError, match="holds itself"):

@@ -22,7 +22,10 @@ R = TypeVar("R")
 STORE = "MECHWRIGHT_STORE"
 """Environment variable: ``off``, or a folder for results in place of that in the user's cache."""
 
-LIBRARIES = ("cadquery", "cadquery-ocp", "ezdxf", "manifold3d", "numba", "numpy", "scipy", "shapely")
+LIBRARIES = (
+    *("cadquery", "cadquery-ocp", "ezdxf", "jinja2", "manifold3d", "numba", "numpy", "pydantic", "scipy"),
+    *("shapely", "tomlkit"),
+)
 """Whose versions change results."""
 
 

@@ -12,6 +12,15 @@ from typing import Any
 
 import numpy as np
 
+OURS = "mechwright"
+"""How the packages of the program begin: the stamp of a store has their code."""
+
+KNOWN = {
+    *("_io", "builtins", "collections", "copyreg", "datetime", "decimal", "enum", "fractions", "functools"),
+    *("math", "numpy", "operator", "pathlib", "pydantic", "pydantic_core", "scipy", "shapely", "types"),
+}
+"""Python's own packages, and libraries whose versions a store has in its stamp."""
+
 _SIZE = 20
 """Bytes of a digest."""
 
@@ -24,7 +33,8 @@ def content_digest(*things: object) -> bytes:
     """The digest of things: numbers, texts, arrays, shapes, containers, dataclasses and what can be pickled.
 
     Of a dataclass the fields count, and not what is kept beside them. A function and a class count by their
-    names. Raises NoContentError for what has neither.
+    names, if they are ours or a library's: nothing says what code of somebody else does under the same name
+    tomorrow. Raises NoContentError for what has neither.
 
     Examples
     --------
@@ -107,8 +117,9 @@ def _reduces(kind: type) -> bool:
 
 
 def _named(thing: Any) -> bytes:
-    """A function or a class by its name; one that no module has under that name is none."""
+    """A function or a class by its name, if it has one of its own and is none of somebody else."""
     place = f"{thing.__module__}.{thing.__qualname__}"
-    if "<" in place:
-        raise NoContentError(f"{place} has no name of its own")
+    top = str(thing.__module__).partition(".")[0]
+    if "<" in place or not (top in KNOWN or top.partition("_")[0] == OURS):
+        raise NoContentError(f"{place} has no name that tells what it does")
     return f"named {place} ".encode()
