@@ -73,9 +73,13 @@ def _by_family() -> list[dict[str, list[str]]]:
 
 
 def _templates() -> list[str]:
-    """Files of ``examples`` that pages link to and that no gallery shows: templates and scripts."""
+    """Files of ``examples`` that pages link to and that no gallery shows: templates, scripts, other processes."""
     kept = {".md", ".toml", ".py"}
-    folders = [*sorted(gallery.EXAMPLES.glob("*-template")), gallery.EXAMPLES / "cqgi"]
+    folders = [
+        *sorted(gallery.EXAMPLES.glob("*-template")),
+        gallery.EXAMPLES / "cqgi",
+        gallery.EXAMPLES / "processes",
+    ]
     found = (path for folder in folders for path in sorted(folder.rglob("*")) if path.suffix in kept)
     return [path.relative_to(ROOT).as_posix() for path in found]
 
