@@ -73,7 +73,7 @@ def _by_family() -> list[dict[str, list[str]]]:
 
 
 def _templates() -> list[str]:
-    """Files of ``examples`` that pages link to and that no gallery shows: templates, scripts, other processes."""
+    """Files of ``examples`` that pages link to and that no gallery shows: templates, scripts, processes."""
     kept = {".md", ".toml", ".py"}
     folders = [
         *sorted(gallery.EXAMPLES.glob("*-template")),
