@@ -40,7 +40,7 @@ CHANGES = (
     ("elliptic-pair-machine", "semi_major = 50", "semi_major = 51"),
     ("elliptic-pair-machine", "load = 0.1", "load = 0.09"),
     ("spur-gears-machine", "mate_teeth = 45", "mate_teeth = 46"),
-    ("spur-gears-machine", "thickness = 10", "thickness = 12"),
+    ("spur-gears-machine", "load = 1\n", "load = 0.9\n"),
 )
 
 
