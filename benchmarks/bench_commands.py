@@ -144,7 +144,7 @@ def main() -> int:
                 first, second, same = changed(name, old, new)
                 share = second.processor / first.processor
                 took = f"{first.processor:6.1f}s {second.processor:6.1f}s {share:6.2f} {same:10.0%}"
-                print(f"{f'{name}: {new}':58} {took}", flush=True)
+                print(f"{f'{name}: {new.strip()}':58} {took}", flush=True)
         return 0
     anchor = min((run(ANCHOR, ()) for _ in range(asked.rounds)), key=lambda cost: cost.processor)
     print(f"{ANCHOR}: {anchor.processor:.2f} s of processor time, {anchor.clock:.2f} s by the clock")
