@@ -25,6 +25,10 @@ _ALIKE = 0.6
 """Share of letters, in their order, that two names have in common where one is the other misspelt."""
 
 
+class UserNote(UserWarning):
+    """A warning in words for the user: commands say it once, as it stands."""
+
+
 def shortened(message: str) -> str:
     r"""A message with at most :data:`MOST_LINES` lines, none of them longer than :data:`LONGEST`.
 

@@ -20,8 +20,10 @@ from by_night import NIGHT
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mechwright.cli import failure
 from mechwright.contracts.part import Part
 from mechwright.contracts.shape import Shape, ring
+from mechwright.errors import UserNote
 from mechwright.pipeline.result_store import STORE, result_store
 from mechwright.plugins.host import Host, Registered
 from mechwright.worker_pool.content import KNOWN, NoContentError, content_digest
@@ -220,6 +222,13 @@ def test_a_store_that_cannot_be_used_says_so_once(tmp_path: Path, monkeypatch: p
         warnings.simplefilter("error")
         store.kept(doubled, Bar(2)).write(doubled(Bar(2)))
     assert list(store.folder.glob("**/*.part")) == []
+
+
+def test_commands_say_once_and_plainly_that_nothing_is_kept(capsys: pytest.CaptureFixture[str]) -> None:
+    with failure.errors_in_lines():
+        for category in (UserNote, type("UserNote", (UserWarning,), {})):  # the second is that of a worker
+            failure.warned("results are not kept in x: it is full", category, "store.py", 3)
+    assert capsys.readouterr().err == "mechwright: warning: results are not kept in x: it is full\n"
 
 
 def test_kills_leave_it_sound(tmp_path: Path) -> None:

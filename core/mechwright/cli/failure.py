@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mechwright.cli.streams import plain, say
 from mechwright.contracts.guard import described, now
-from mechwright.errors import MechwrightError, PluginFaultError, shortened
+from mechwright.errors import MechwrightError, PluginFaultError, UserNote, shortened
 
 TRACEBACK = "MECHWRIGHT_TRACEBACK"
 """Environment variable; if it is not empty, an unexpected fault prints its traceback as well."""
@@ -40,13 +40,19 @@ def warned(
     filename: str,
     lineno: int,
     file: object = None,  # noqa: ARG001 - as warnings.showwarning has it
-    line: object = None,  # noqa: ARG001
+    line: object = None,
 ) -> None:
     """Say a warning of Python's in a line, with the call into a plugin that is under way."""
     if len(_warned) >= MOST_WARNINGS:
         if len(_warned) == MOST_WARNINGS:
             say("mechwright: warning: there are more warnings, which are omitted")
         _warned.append("")
+        return
+    if category.__name__ == UserNote.__name__:  # that of a worker is a class of the same name
+        line = plain(shortened(f"mechwright: warning: {' '.join(str(message).split())}"))
+        if line not in _warned:
+            _warned.append(line)
+            say(line)
         return
     who = now() or "this program"
     said = plain(shortened(" ".join(f"{category.__name__}: {message}".split())))

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
+from mechwright.errors import UserNote
 from mechwright.systems import is_private
 from mechwright.worker_pool.content import NoContentError, content_digest
 from mechwright.worker_pool.pickling import KnownPickler, KnownUnpickler
@@ -82,7 +83,7 @@ class ResultStore:
 
     def _stop(self, why: str) -> None:
         self._usable = False
-        warnings.warn(f"results are not kept in {self.folder}: {why}", stacklevel=3)
+        warnings.warn(f"results are not kept in {self.folder}: {why}", UserNote, stacklevel=3)
 
     def read(self, place: Path) -> bytes | None:
         """A result as it was written; None where there is none, or a damaged one."""
