@@ -10,7 +10,7 @@ from mechwright.contracts.finding import Finding, errors
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import plates_of
 from mechwright_cam.machining import Machining
-from mechwright_cam.operations.contract import Operation, Task
+from mechwright_cam.operations.contract import Task
 from mechwright_cam.operations.ladder import change_time, ladder, recess_ladder
 from mechwright_cam.operations.rates import rates
 from mechwright_cam.planning.assign import Assignments
@@ -32,8 +32,7 @@ class MillingTrial:
         plates, machining = plates_of(self._build.parts), self._build.made(Machining)
         if machining.plates == plates:
             return machining.findings, machining.jobs, machining.assignments
-        assignments = Assignments(self._build.host.all(Operation))
-        return *prepare(self._build.design, plates, assignments), assignments
+        return *prepare(self._build.design, plates, machining.assignments), machining.assignments
 
     def _jobs(self, name: str) -> list[Job]:
         return [job for job in self._prepared[1] if name in _names(job)]

@@ -61,7 +61,8 @@ def texts_of(found: dict[str, Any], folder: Path, more: list[Path], notes: list[
     for file in bound:
         name = Path(file["name"]).name
         # A drawing that is an input may have the name of the one that is written: it is either of them.
-        known = {one["sha256"] for one in bound if Path(one["name"]).name == name}
+        others = bound[len(found["files"]) :] if file["what"] != "program" else [file]
+        known = {one["sha256"] for one in others if Path(one["name"]).name == name}
         path = given.pop(name, folder / name)
         if file["what"] != "program" and not path.exists():
             notes.append(f"{name} ({file['what']}) is not beside the certificate and was not compared")

@@ -1,9 +1,8 @@
 """The parts as their programs leave them.
 
-Walls are measured from the text: a wall stands half a kerf beside the way of a beam, and of a wire on the
-contour. Holes that are reamed,
-drilled or given a bush afterwards count as drawn. What the process strays by besides is no part of this: it
-is the tolerance that ``[tolerances]`` takes.
+Walls are measured from the text: by a beam they stand half a kerf beside its way, by a wire on the contour.
+Holes that are reamed, drilled or given a bush afterwards count as drawn. What the process strays by besides
+is no part of this: it is the tolerance that ``[tolerances]`` takes.
 """
 
 from collections.abc import Callable, Iterator

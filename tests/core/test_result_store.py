@@ -23,6 +23,7 @@ from hypothesis import strategies as st
 from mechwright.cli import failure
 from mechwright.contracts.part import Part
 from mechwright.contracts.shape import Shape, ring
+from mechwright.contracts.tolerance_settings import ToleranceSettings
 from mechwright.errors import UserNote
 from mechwright.pipeline.result_store import STORE, result_store
 from mechwright.plugins.host import Host, Registered
@@ -99,6 +100,15 @@ def test_fields_count_and_what_is_kept_beside_them_does_not() -> None:
         == content_digest(replace(disc))
         != content_digest(replace(disc, material="brass"))
     )
+
+
+def test_a_value_that_a_file_states_is_not_one_that_it_leaves_out() -> None:
+    """Results may differ by it: a process gives its tolerances in place of a grade that is left out."""
+    left_out, stated = ToleranceSettings(), ToleranceSettings(general="proof")
+    assert left_out.model_dump() == stated.model_dump()
+    assert content_digest(left_out) == content_digest(ToleranceSettings())
+    assert content_digest(left_out) != content_digest(stated)
+    assert content_digest(stated) != content_digest(ToleranceSettings(general="fine"))
 
 
 def test_what_has_no_content_is_not_kept() -> None:

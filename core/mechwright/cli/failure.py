@@ -40,7 +40,7 @@ def warned(
     filename: str,
     lineno: int,
     file: object = None,  # noqa: ARG001 - as warnings.showwarning has it
-    line: object = None,
+    line: object = None,  # noqa: ARG001
 ) -> None:
     """Say a warning of Python's in a line, with the call into a plugin that is under way."""
     if len(_warned) >= MOST_WARNINGS:
@@ -49,10 +49,10 @@ def warned(
         _warned.append("")
         return
     if category.__name__ == UserNote.__name__:  # that of a worker is a class of the same name
-        line = plain(shortened(f"mechwright: warning: {' '.join(str(message).split())}"))
-        if line not in _warned:
-            _warned.append(line)
-            say(line)
+        told = plain(shortened(f"mechwright: warning: {' '.join(str(message).split())}"))
+        if told not in _warned:
+            _warned.append(told)
+            say(told)
         return
     who = now() or "this program"
     said = plain(shortened(" ".join(f"{category.__name__}: {message}".split())))

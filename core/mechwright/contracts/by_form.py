@@ -26,9 +26,7 @@ class _Asked(Generic[T]):
         return isinstance(other, _Asked) and self.number == other.number and self.key == other.key
 
 
-def kept_by_form(
-    most: int,
-) -> Callable[[Callable[Concatenate[Part, P], T]], Callable[Concatenate[Part, P], T]]:
+def kept_by_form(most: int) -> Callable[[OfPart[P, T]], OfPart[P, T]]:
     """Keep the last ``most`` results of a function of a part and of what can be hashed, by the part's form.
 
     The function must not ask for what :attr:`Part.form` leaves out.

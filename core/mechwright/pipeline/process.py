@@ -70,7 +70,8 @@ class Process(Plugin):
     def objections(self, part: "Part", build: Build) -> Sequence[Finding]:  # noqa: ARG002 - for those with rules
         """What its rules find of a plate, whether or not the design has chosen it; by default nothing.
 
-        Where an error has a remedy, the plate can be made with it. Asked of plates that it does not refuse.
+        Where an error has a remedy, the plate can be made with it. It is asked of refused plates, too: a
+        reason that is told here is not told a second time.
         """
         return ()
 

@@ -32,7 +32,8 @@ class NoContentError(Exception):
 def content_digest(*things: object) -> bytes:
     """The digest of things: numbers, texts, arrays, shapes, containers, dataclasses and what can be pickled.
 
-    Of a dataclass the fields count, and not what is kept beside them. A function and a class count by their
+    Of a dataclass the fields count, and not what is kept beside them; of a table of a file the values, and
+    which of them it states. A function and a class count by their
     names, if they are ours or a library's: nothing says what code of somebody else does under the same name
     tomorrow. Raises NoContentError for what has neither.
 
@@ -100,7 +101,8 @@ class _Reader:
         if is_dataclass(thing) and not _reduces(kind):
             return _named(kind) + self._all("", (getattr(thing, one.name) for one in fields(thing)))
         if hasattr(kind, "model_fields"):
-            return _named(kind) + self._all("", (getattr(thing, name) for name in kind.model_fields))
+            values = (getattr(thing, name) for name in kind.model_fields)
+            return _named(kind) + self._all("", (thing.model_fields_set, *values))
         try:
             reduced = thing.__reduce_ex__(4)
         except Exception as error:  # what cannot be pickled says so in many ways
