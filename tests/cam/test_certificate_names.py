@@ -43,3 +43,20 @@ def test_a_program_takes_no_other_hash(certificate, capsys):
     code, said = checked(capsys, certificate)
     assert code == 1
     assert f"{program.name} is not the program" in said
+
+
+def test_a_program_is_no_input_of_its_name(tmp_path, capsys):
+    """A certificate that binds another text under the program's name does not let it pass as the program."""
+
+    def change(content):
+        name = content["files"][0]["name"]
+        other = (tmp_path / name).read_bytes() + b"(x)\n"
+        content["bound"].append({"what": "input", "name": name, "sha256": hashlib.sha256(other).hexdigest()})
+
+    written(tmp_path, "profile-outside", "grbl")
+    certificate = written(tmp_path, "profile-outside", "grbl", change)
+    program = next(tmp_path.glob("*.nc"))
+    program.write_bytes(program.read_bytes() + b"(x)\n")
+    code, said = checked(capsys, certificate)
+    assert code == 1
+    assert f"{program.name} is not the program that the certificate is of" in said
