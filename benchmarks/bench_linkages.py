@@ -273,9 +273,9 @@ class _Counted(Linkages):
 
     judged = 0
 
-    def judge(self, params: LinkageParams) -> Any:
-        self.judged += 1
-        return super().judge(params)
+    def table(self, params: LinkageParams, size: int | None = None) -> Any:
+        self.judged += size is None
+        return super().table(params, size)
 
 
 def main() -> int:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from procedural import Procedural
 
 import mechwright.plugins.host as hosting
 from mechwright.cli import failure
@@ -26,7 +27,7 @@ EXAMPLE = Path(__file__).parents[1] / "examples" / "elliptic-pair.toml"
 Run = Callable[..., tuple[int, str, str]]
 
 
-class Odd(Family[Parameters]):
+class Odd(Procedural[Parameters]):
     name = "odd"
     title = "Odd"
     summary = "Does what its two class attributes say."
@@ -34,7 +35,7 @@ class Odd(Family[Parameters]):
     fault: Exception | None = None
     names: tuple[str, ...] = ("plate",)
 
-    def check(self, params: Parameters) -> list[Any]:
+    def found(self, params: Parameters) -> list[Any]:
         if self.fault is not None:
             raise self.fault
         return []

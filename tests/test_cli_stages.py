@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from by_night import by_night
 
-from mechwright.contracts.finding import Finding, Severity, Stage, errors, of_stage, until_error
+from mechwright.contracts.finding import Finding, Severity, Stage, errors, of_stage
 from mechwright.contracts.part import Part
 from mechwright.errors import GeometryError
 from mechwright.remedies import Limits
@@ -215,4 +215,4 @@ def test_a_check_says_its_stage_once() -> None:
     def walls(_: object) -> list[Finding]:
         return [finding(Stage.MOTION)]
 
-    assert [one.stage for one in until_error(None, walls)] == [Stage.PARTS]
+    assert [one.stage for one in walls(None)] == [Stage.PARTS]

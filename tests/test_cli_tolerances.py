@@ -128,9 +128,6 @@ class Still(Family):
     name, title, summary = "still", "Still", "Does not move."
     Params = type(host().family("four-bar")).Params
 
-    def check(self, params):
-        return ()
-
     def solve(self, params, samples):
         raise NotImplementedError
 

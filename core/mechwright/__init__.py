@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.as_made import AsMade, MadeCurve, MadeFigure
     from mechwright.contracts.axial_stack import AxialStack, Shimming, StackLength
     from mechwright.contracts.bought import Bought
-    from mechwright.contracts.design_rule import DesignRule, Note, Procedure
+    from mechwright.contracts.design_rule import DesignRule
     from mechwright.contracts.design_table import DesignTable
     from mechwright.contracts.details import Chamfer, Detail, Engraving, Thread
     from mechwright.contracts.evaluation import Batch, Columns
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
         at_stage,
         of_stage,
         refuse,
-        until_error,
     )
     from mechwright.contracts.fitting_marks import FittingMark
     from mechwright.contracts.inputs import InputFile
@@ -46,6 +45,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.parameters import FIRST, FITTED, GIVEN, Parameters, kept
     from mechwright.contracts.part import Bore, Colour, Feature, Instance, OpenProfile, Part, Pocket, Profile
     from mechwright.contracts.plugin import HOOK_API, Plugin
+    from mechwright.contracts.procedure import Note, Procedure
     from mechwright.contracts.refused import RefusedError
     from mechwright.contracts.result import Result
     from mechwright.contracts.rule_list import Rules, all_of, in_turn
@@ -91,7 +91,8 @@ _HOMES = {
     "mechwright.contracts.as_made": "AsMade MadeCurve MadeFigure",
     "mechwright.contracts.axial_stack": "AxialStack Shimming StackLength",
     "mechwright.contracts.bought": "Bought",
-    "mechwright.contracts.design_rule": "DesignRule Note Procedure",
+    "mechwright.contracts.design_rule": "DesignRule",
+    "mechwright.contracts.procedure": "Note Procedure",
     "mechwright.contracts.design_table": "DesignTable",
     "mechwright.contracts.details": "Chamfer Detail Engraving Thread",
     "mechwright.contracts.fitting_marks": "FittingMark",
@@ -99,7 +100,7 @@ _HOMES = {
     "mechwright.contracts.exporter": "Exporter",
     "mechwright.contracts.family": "Family",
     "mechwright.contracts.figure": "Figure PartMass scalars",
-    "mechwright.contracts.finding": "Finding Findings Severity Stage at_stage of_stage refuse until_error",
+    "mechwright.contracts.finding": "Finding Findings Severity Stage at_stage of_stage refuse",
     "mechwright.contracts.made_part": "MadeHole MadePart MadeRing MadeSection",
     "mechwright.contracts.inputs": "InputFile",
     "mechwright.contracts.joint": "GROUND Joint",
@@ -212,7 +213,6 @@ __all__ += [
     "kept",
     "of_stage",
     "refuse",
-    "until_error",
 ]
 __all__ += ["DesignRule", "DesignTable", "Figure", "Note", "PartMass", "Procedure", "Rules"]
 __all__ += ["Batch", "Columns", "all_of", "in_turn", "scalars"]

@@ -5,9 +5,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, ClassVar, cast
 
-import numpy as np
-
-from mechwright import Family, Parameters, Stage, refuse
+from mechwright import Family, Parameters, refuse
 from mechwright_four_bar.parameters import FourBarParams
 from mechwright_four_bar.requirements import (
     AdjustablePathRequirement,
@@ -34,7 +32,6 @@ if TYPE_CHECKING:
     )
     from mechwright.contracts.axial_stack import AxialStack
     from mechwright.contracts.design_table import DesignTable
-    from mechwright.contracts.evaluation import Batch, Columns
     from mechwright.contracts.figure import Figure, PartMass
     from mechwright.contracts.rule_list import Rules
     from mechwright_four_bar.table import FourBarTable
@@ -154,16 +151,6 @@ class FourBars(Family[FourBarParams]):
         from mechwright_four_bar.kinematics.study import masses_of
 
         return masses_of(cast("FourBarTable", table))
-
-    def evaluate(
-        self, batch: "Batch[FourBarParams]", columns: Collection[str], stage: Stage = Stage.PARTS
-    ) -> "Columns":
-        """Many at once by tables; designs of several phases one by one."""
-        if not batch.content.get("phases"):
-            return super().evaluate(batch, columns, stage)
-        from mechwright.contracts.singly import singly
-
-        return singly(self, batch, columns, stage, np.arange(len(batch)))
 
     def synthesise(
         self, kind: str, requirement: Parameters, progress: "Progress"

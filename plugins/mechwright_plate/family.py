@@ -3,11 +3,12 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from mechwright import DesignError, Finding, Standing, refuse
+from mechwright import DesignError, Standing, refuse
 from mechwright_plate.params import PlateParams
 
 if TYPE_CHECKING:
-    from mechwright import Part
+    from mechwright import DesignTable, Part
+    from mechwright.contracts.rule_list import Rules
 
 
 class Plate(Standing[PlateParams]):
@@ -33,11 +34,11 @@ class Plate(Standing[PlateParams]):
         data = text.encode()
         return PlateParams(drawing=InputFile(source, data), layers=layers_of(data))
 
-    def check(self, params: PlateParams) -> Sequence[Finding]:
+    def rules(self) -> "Rules[DesignTable[PlateParams]]":
         """What keeps the drawing from being a plate, each with its place; what was mended or left out."""
-        from mechwright_plate.made import made
+        from mechwright_plate.made import RULES
 
-        return made(params).findings
+        return RULES
 
     def parts(self, params: PlateParams) -> "Sequence[Part]":
         """The plate."""

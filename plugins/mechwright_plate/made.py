@@ -7,10 +7,12 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from mechwright import Bore, Finding, Instance, Part, Severity, Stage, kept
+from mechwright import Bore, DesignTable, Finding, Instance, Part, Procedure, Severity, Stage, kept
 from mechwright.contracts.details import Thread
 from mechwright.contracts.finding import Change
 from mechwright.contracts.part import name_from
+from mechwright.contracts.rule_list import by_design
+from mechwright.drawings.fault import FAULTS
 from mechwright.drawings.plate import Cut, part_of
 from mechwright.drawings.reading import Drawn, read
 from mechwright_plate.params import PlateParams
@@ -97,6 +99,15 @@ def made(params: PlateParams) -> Made:
     cut = Cut(_name(params.drawing.name), params.thickness, params.material, (Instance(BODY),))
     part = part_of(drawn, params.asked, cut)
     return Made(part, tuple(_findings(params, drawn, part)))
+
+
+RULES = by_design(
+    Procedure[DesignTable[PlateParams]](
+        tuple(f"plate.{code}" for code in FAULTS), lambda t: made(t.params).findings, stage=Stage.PARTS
+    ),
+    stage=Stage.PARTS,
+)
+"""What keeps a drawing from being a plate."""
 
 
 def _name(file: str) -> str:

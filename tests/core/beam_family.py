@@ -4,10 +4,10 @@ import tomllib
 from pathlib import Path
 from typing import Literal
 
+from procedural import Procedural
 from pydantic import Field, model_validator
 
-from mechwright.contracts.family import Family
-from mechwright.contracts.finding import Finding, until_error
+from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.parameters import Parameters
 from mechwright.designs.design import Design
 from mechwright.remedies import Bench, Limits, tried
@@ -42,14 +42,15 @@ def error(code, parameter, remedy, *numbers, proposed=()):
     )
 
 
-class Beam(Family[BeamParams]):
+class Beam(Procedural[BeamParams]):
     name = "beam"
     title = "Beam"
     summary = "A beam."
     Params = BeamParams
 
-    def check(self, params):
-        return until_error(params, self._first, self._second)
+    def found(self, params):
+        found = list(self._first(params))
+        return found if errors(found) else [*found, *self._second(params)]
 
     def _first(self, params):
         if params.width < params.length / 10:

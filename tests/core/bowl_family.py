@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
-from mechwright import Channel, Family, Finding, Motion, Parameters, Scalar, Stage
+from mechwright import Channel, DesignRule, Family, Motion, Parameters, Scalar, in_turn
 from mechwright.plugins.host import host
 from mechwright.studies.study import study_of
 from mechwright.units import Degrees, Millimetres
@@ -35,10 +35,10 @@ class Bowl(Family[BowlParams]):
     Params = BowlParams
     batch: ClassVar[int] = 64
 
-    def check(self, params):
-        if params.x > 3:
-            return [Finding.error("bowl.deep", "x", "is too deep", stage=Stage.PARTS)]
-        return []
+    def rules(self):
+        return in_turn(
+            DesignRule("bowl.deep", "x", "is too deep", lambda t: t.params.x, 3, must_be="at most")
+        )
 
     def solve(self, params, samples):
         angle = np.linspace(0, math.tau, samples)

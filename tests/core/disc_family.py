@@ -4,9 +4,9 @@ import math
 from typing import ClassVar, Literal
 
 import numpy as np
+from procedural import Procedural
 from pydantic import Field, model_validator
 
-from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Severity
 from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.contracts.parameters import Parameters
@@ -41,14 +41,14 @@ class RimRequirement(Parameters):
     count: int = Field(2, ge=1, le=20, description="How many discs to choose from.")
 
 
-class Disc(Family[DiscParams]):
+class Disc(Procedural[DiscParams]):
     name = "disc"
     title = "Disc"
     summary = "A disc that turns."
     Params = DiscParams
     requirements: ClassVar = {"rim": RimRequirement}
 
-    def check(self, params):
+    def found(self, params):
         wall = (params.diameter - params.hole) / 2
         found = [Finding("disc.wall", Severity.NOTE, "", f"the wall is {wall:.3g} mm", value=wall, unit="mm")]
         if wall < 2 or (params.holes and wall < 8):

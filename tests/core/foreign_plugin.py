@@ -10,7 +10,7 @@ NAME = "rude"
 WHO = f"plugin {NAME} of {NAME}-mechanisms"
 """What a message calls it."""
 PLUGIN = """
-from mechwright import Family, Parameters, hookimpl
+from mechwright import Family, Parameters, Procedure, hookimpl, in_turn
 class P(Parameters):
     pass
 class Rude(Family[P]):
@@ -18,7 +18,10 @@ class Rude(Family[P]):
     title = "Rude"
     summary = "Rude."
     Params = P
-    def check(self, params):
+    def rules(self):
+        return in_turn(Procedure((), self.found))
+    def found(self, table):
+        params = table.params
 {check}
         return []
     def solve(self, params, samples):

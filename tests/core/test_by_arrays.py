@@ -7,10 +7,22 @@ import numpy as np
 import pytest
 from pydantic import AfterValidator, Field, ValidationError, model_validator
 
-from mechwright import Channel, Family, Finding, KinematicsError, Motion, Parameters, Scalar, Stage
-from mechwright.contracts.by_arrays import Answer, by_arrays
+from mechwright import (
+    Channel,
+    DesignRule,
+    DesignTable,
+    Family,
+    Figure,
+    KinematicsError,
+    Motion,
+    Parameters,
+    Scalar,
+    Stage,
+    in_turn,
+)
 from mechwright.contracts.evaluation import PARAMETERS, Batch, one_by_one
 from mechwright.contracts.refusals import refusals
+from mechwright.contracts.rule_list import OneByOne
 from mechwright.contracts.stand_in import Asked, StandIn
 from mechwright.testing import FamilyContract
 from mechwright.testing.evaluation import assert_same
@@ -149,20 +161,33 @@ class WedgeParams(Parameters):
     run: Millimetres = Field(5.0, ge=1, le=10, description="A length.")
 
 
+Wedges = DesignTable[WedgeParams]
+STEEP = DesignRule[Wedges](
+    "wedge.steep",
+    "rise",
+    "is too steep",
+    value=lambda t: np.asarray(t.params.rise),
+    limit=lambda t: 2 * np.asarray(t.params.run),
+    must_be="at most",
+    stage=Stage.MOTION,
+)
+FLAT = DesignRule[Wedges](
+    "wedge.flat", "rise", "is too flat", value=lambda t: np.asarray(t.params.rise), limit=1
+)
+ALONE = OneByOne[Wedges](lambda t: (np.asarray(t.params.rise) > 9) | (np.asarray(t.params.rise) == 4))
+
+
 class Wedge(Family[WedgeParams]):
     name, title, summary = "wedge", "Wedge", "A closed form."
     Params = WedgeParams
-    slow: ClassVar[list[float]] = []
+    batch = 64
+    solved: ClassVar[list[float]] = []
 
-    def check(self, params):
-        self.slow.append(params.rise)
-        if params.rise > 2 * params.run:
-            return [Finding.error("wedge.steep", "rise", "is too steep")]
-        return (
-            [Finding.error("wedge.flat", "rise", "is too flat", stage=Stage.PARTS)] if params.rise < 1 else []
-        )
+    def rules(self):
+        return in_turn(STEEP, FLAT, ALONE)
 
     def solve(self, params, samples):
+        self.solved.append(params.rise)
         if params.rise == 4:
             raise KinematicsError("rise: jams at 4; take another")
         x = np.linspace(0, params.run, samples)
@@ -175,47 +200,39 @@ class Wedge(Family[WedgeParams]):
     def parts(self, params):
         return ()
 
-    def evaluate(self, batch, columns, stage=Stage.PARTS):
-        return by_arrays(self, batch, columns, stage, wedges, chunk=64)
+    def figures(self, table):
+        slope = lambda: np.arctan2(table.params.rise, table.params.run)  # noqa: E731 - what a figure takes
+        return {"slope": Figure(slope, "rad")}
+
+    def extremes(self, table, names):
+        rise = np.asarray(table.params.rise, float).ravel()
+        return {"y": (0 * rise, rise, "mm")}
 
 
-def wedges(designs, columns, stage):
-    if "run" in designs.varied:
-        return None
-    found = Answer(len(designs))
-    rise = designs.full("rise")
-    found.forbid("wedge.steep", rise > 2 * designs["run"])
-    if stage is not Stage.MOTION:
-        found.forbid("wedge.flat", rise < 1)
-    left = found.left
-    found.doubt(rise[left] > 9, left)
-    found.doubt((rise == 4) & ("x.least" not in columns))
-    found.give("slope", np.degrees(np.arctan2(rise, designs["run"])))
-    found.give("y.greatest", rise)
-    found.give("y.least", 0 * rise)
-    return found
+def by_themselves(family, batch, columns, stage=Stage.PARTS):
+    return one_by_one(family.judge, family.solve, batch, columns, stage)
 
 
 @pytest.mark.parametrize("stage", [Stage.MOTION, Stage.PARTS])
 def test_what_is_undecided_is_asked_by_itself(stage):
     rise = np.append(some(-1, 11, 300), [4.0, 2.0])
     batch = Batch(WedgeParams, {"run": 5}, {"rise": rise})
-    Wedge.slow.clear()
+    Wedge.solved.clear()
     found = Wedge().evaluate(batch, ["slope", "y.greatest"], stage)
-    assert sorted(Wedge.slow) == sorted(rise[((rise > 9) & (rise <= 10)) | (rise == 4)])
-    assert_same(found, one_by_one(Wedge().judge, Wedge().solve, batch, ["slope", "y.greatest"], stage))
+    assert sorted(Wedge.solved) == sorted(rise[((rise > 9) & (rise <= 10)) | (rise == 4)])
+    assert_same(found, by_themselves(Wedge(), batch, ["slope", "y.greatest"], stage))
     assert {"parameters.rise", "motion"} <= set(found.counts)
 
 
-def test_what_has_no_way_goes_one_by_one():
+def test_what_has_no_formula_goes_one_by_one():
     for content, varied, columns in (
-        ({}, {"run": some(0, 11)}, ["slope"]),
+        ({}, {"run": some(1, 11)}, ["slope", "x.greatest"]),
         ({}, {"rise": np.append(some(0, 11), [4.0, 2.0])}, ["slope", "x.least"]),
         ({"run": -1}, {"rise": some(0, 11)}, ["slope"]),
     ):
         batch = Batch(WedgeParams, content, varied)
         found = Wedge().evaluate(batch, columns)
-        assert_same(found, one_by_one(Wedge().judge, Wedge().solve, batch, columns, Stage.PARTS))
+        assert_same(found, by_themselves(Wedge(), batch, columns))
 
 
 class KindParams(WedgeParams):
@@ -228,17 +245,11 @@ class KindParams(WedgeParams):
 class KindWedge(Wedge):
     name, Params = "kind-wedge", KindParams
 
-    def evaluate(self, batch, columns, stage=Stage.PARTS):
-        def answer(designs, columns, stage):
-            if {"kind", "count"} & designs.varied.keys():
-                return None
-            found = wedges(designs, columns, stage)
-            if designs.common.kind == "steep":
-                found.doubt(np.ones(len(designs), dtype=bool))
-            found.give("count", np.full(len(designs), 1.0 * designs.common.count))
-            return found
+    def rules(self):
+        return in_turn(STEEP, OneByOne(lambda t: t.params.kind == "steep"), FLAT)
 
-        return by_arrays(self, batch, columns, stage, answer, chunk=64)
+    def figures(self, table):
+        return super().figures(table) | {"count": Figure(lambda: 1.0 * table.params.count, "")}
 
     def solve(self, params, samples):
         found = super().solve(params, samples)
@@ -247,7 +258,7 @@ class KindWedge(Wedge):
 
 
 @pytest.mark.parametrize(
-    ("kinds", "counts", "fast"), [(["steep", "any"], 4, 0.5), (["any"], 4, 1.0), (["any"], 99, 0.0)]
+    ("kinds", "counts", "fast"), [(["steep", "any"], 4, 0.5), (["any"], 4, 1.0), (["any"], 99, 1.0)]
 )
 def test_texts_and_whole_numbers_are_answered_kind_by_kind(kinds, counts, fast):
     varied = {
@@ -256,24 +267,21 @@ def test_texts_and_whole_numbers_are_answered_kind_by_kind(kinds, counts, fast):
         "count": np.arange(300) // 2 % counts + 1,
     }
     batch = Batch(KindParams, {"run": 5}, varied)
-    Wedge.slow.clear()
+    Wedge.solved.clear()
     found = KindWedge().evaluate(batch, ["slope", "count"], Stage.PARTS)
-    assert len(Wedge.slow) == 300 * (1 - fast)
-    assert_same(
-        found, one_by_one(KindWedge().judge, KindWedge().solve, batch, ["slope", "count"], Stage.PARTS)
-    )
+    assert len(Wedge.solved) == 300 * (1 - fast)
+    assert_same(found, by_themselves(KindWedge(), batch, ["slope", "count"]))
 
 
 class WrongWedge(Wedge):
-    def evaluate(self, batch, columns, stage=Stage.PARTS):
-        found = super().evaluate(batch, columns, stage)
-        found.values["slope"][0] *= 1 + 1e-8
-        return found
+    def figures(self, table):
+        slope = lambda: np.arctan2(table.params.rise, table.params.run) * (1 + 1e-8)  # noqa: E731
+        return {"slope": Figure(slope, "rad")}
 
 
-class HastyWedge(Wedge):
-    def evaluate(self, batch, columns, stage=Stage.PARTS):
-        return super().evaluate(batch, columns, Stage.MOTION)
+class StrictWedge(Wedge):
+    def rules(self):
+        return in_turn(STEEP, FLAT.but(best=lambda t: 0 * np.asarray(t.params.rise)), ALONE)
 
 
 def test_the_contract_finds_other_figures_and_other_refusals():
@@ -286,8 +294,8 @@ def test_the_contract_finds_other_figures_and_other_refusals():
     contract(Wedge).test_evaluate()
     with pytest.raises(AssertionError, match="slope"):
         contract(WrongWedge).test_evaluate()
-    with pytest.raises(AssertionError, match=r"by itself by 'wedge\.flat'"):
-        contract(HastyWedge).test_evaluate()
+    with pytest.raises(AssertionError, match=r"wedge\.flat"):
+        contract(StrictWedge).test_evaluate()
 
 
 class Sized(Parameters):

@@ -14,6 +14,7 @@ from typing import Annotated, Any, TypeVar
 import foreign_plugin
 import numpy as np
 import pytest
+from procedural import Procedural
 from test_guard import Size, moved, plate
 
 from mechwright.contracts import guard
@@ -33,7 +34,7 @@ from mechwright.plugins.host import Registered
 WHO = "plugin bad of bad-mechanisms: family bad: "
 
 
-class Told(Family[Size]):
+class Told(Procedural[Size]):
     """Gives what it is told to give, whatever it is asked."""
 
     name = "bad"
@@ -42,7 +43,7 @@ class Told(Family[Size]):
     Params = Size
     gives: Any = None
 
-    def check(self, params: Size) -> Any:
+    def found(self, params: Size) -> Any:
         return self.gives
 
     def solve(self, params: Size, samples: int) -> Any:
@@ -75,9 +76,6 @@ class Told(Family[Size]):
     def measures(self, params: Size) -> Any:
         return self.gives
 
-    def evaluate(self, batch: Any, columns: Any, stage: Any = None) -> Any:
-        return self.gives
-
     def targets(self, kind: str, requirement: Any) -> Any:
         return self.gives
 
@@ -91,7 +89,6 @@ ARGUMENTS: dict[str, tuple[Any, ...]] = {
     "as_made": (Size(), {}),
     "tolerances": (Size(), None),
     "synthesise": ("kind", Size(), None),
-    "evaluate": (None, ()),
     "targets": ("kind", Size()),
 }
 
@@ -211,7 +208,7 @@ def test_findings_are_such_in_every_field(field: str, value: Any) -> None:
 
 @pytest.mark.parametrize(
     "method",
-    ["mounting", "transmission", "settings", "as_made", "tolerances", "synthesise", "measures", "evaluate", "targets",
+    ["mounting", "transmission", "settings", "as_made", "tolerances", "synthesise", "measures", "targets",
      "breaks", "stretches"],
 )  # fmt: skip
 @pytest.mark.parametrize(

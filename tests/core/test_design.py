@@ -31,9 +31,6 @@ class Disc(Family[DiscParams]):
     summary = "A disc."
     Params = DiscParams
 
-    def check(self, params: DiscParams) -> list[Any]:
-        return []
-
     def solve(self, params: DiscParams, samples: int) -> Any:
         raise NotImplementedError
 

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from mechwright.contracts.finding import Finding, Severity, errors, refuse, until_error
+from mechwright.contracts.finding import Finding, Severity, errors, refuse
 from mechwright.errors import DesignError
 
 UNDERCUT = Finding(
@@ -32,21 +32,6 @@ def test_only_errors_forbid_building():
     warning = Finding("a.b", Severity.WARNING, "teeth", "look", remedy="think")
     assert errors([warning, UNDERCUT, warning]) == [UNDERCUT]
     assert errors([]) == []
-
-
-def test_checks_run_up_to_the_first_error():
-    warning = Finding("a.b", Severity.WARNING, "teeth", "look", remedy="think")
-    asked = []
-
-    def check(found):
-        return lambda subject: asked.append(subject) or found
-
-    assert until_error("design", check([warning]), check([UNDERCUT, warning]), check([warning])) == (
-        warning,
-        UNDERCUT,
-        warning,
-    )
-    assert asked == ["design", "design"]
 
 
 def test_the_first_error_is_raised_as_one_line():

@@ -83,7 +83,7 @@ def heard(family: Family[Size]) -> list[str]:
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("default")
         before = stands()
-        family.check(Size())
+        family.parts(Size())
         assert stands() == before
     return [str(one.message) for one in found]
 

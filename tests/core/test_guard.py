@@ -13,12 +13,12 @@ from typing import Any
 import foreign_plugin
 import numpy as np
 import pytest
+from procedural import Procedural
 
 from mechwright.cli import failure
 from mechwright.contracts import guard
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.exporter import Exporter
-from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.motion import Channel, Motion, Poses, Scalar
 from mechwright.contracts.parameters import Parameters
@@ -42,7 +42,7 @@ def plate(size: float = 40.0, high: float = 30.0, thick: float = 5.0, name: str 
     return Part(name, Outline(Loop.polygon([(0, 0), (size, 0), (size, high), (0, high)])), thick, "aluminium")
 
 
-class Bad(Family[Size]):
+class Bad(Procedural[Size]):
     """Does what it is told."""
 
     name = "bad"
@@ -51,7 +51,7 @@ class Bad(Family[Size]):
     Params = Size
     does: Any = None
 
-    def check(self, params: Size) -> Any:
+    def found(self, params: Size) -> Any:
         return self.does(params)
 
     def solve(self, params: Size, samples: int) -> Any:
@@ -179,7 +179,7 @@ def test_a_call_in_another_thread_has_no_alarm(monkeypatch: pytest.MonkeyPatch) 
     thread = threading.Thread(target=lambda: found.append(family.check(Size())))
     thread.start()
     thread.join()
-    assert found == [[]]
+    assert found == [()]
 
 
 MOTIONS: dict[str, tuple[Any, str]] = {
@@ -245,7 +245,7 @@ def test_a_channel_is_named_so_that_it_can_head_a_column(name: str) -> None:
 
 @pytest.mark.parametrize("junk", [None, 3, "text", [None], [3], [Finding], {"a": 1}])
 def test_findings_are_findings(junk: object) -> None:
-    assert " is wanted" in told("check", lambda _: junk)
+    assert " wanted" in told("check", lambda _: junk)
     note = Finding.note("a.b", "wrong", float("nan"))
     assert "'a.b' has a figure that is not a number" in told("check", lambda _: [note])
 

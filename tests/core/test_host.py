@@ -13,6 +13,7 @@ from mechwright.contracts import guard
 from mechwright.contracts.exporter import Exporter
 from mechwright.contracts.family import Family
 from mechwright.contracts.parameters import Parameters
+from mechwright.contracts.plugin import HOOK_API, MOVING
 from mechwright.errors import PluginError
 from mechwright.plugins.host import DISABLE, GROUP, hook_points, load
 from mechwright_cam.controls.contract import Control
@@ -27,7 +28,6 @@ class Cam(Family[Parameters]):
     title = "Cam"
     summary = "A cam."
     Params = Parameters
-    def check(self, params): return []
     def solve(self, params, samples): raise NotImplementedError
     def parts(self, params): return []
 
@@ -137,7 +137,7 @@ def test_a_plugin_that_cannot_be_imported(plugin, source, reason):
         (FAMILY.replace("return [Cam]", "while True: pass"), "mechwright_register: "),
         (
             FAMILY.replace(
-                "def check(self", "def __init__(self):\n        while 1: pass\n    def check(self"
+                "def solve(self", "def __init__(self):\n        while 1: pass\n    def solve(self"
             ),
             "Cam(): ",
         ),
@@ -193,10 +193,31 @@ def test_a_plugin_that_loads_without_an_end(plugin, monkeypatch, source, where):
         ("return [Cam]", "raise ValueError('no')", "mechwright_register: ValueError: no"),
         ("return [Cam]", "raise SystemExit(3)", "mechwright_register: SystemExit: 3"),
         ("return [Cam]", "raise GeneratorExit", "mechwright_register: GeneratorExit"),
-        ('name = "cam"', 'name = "cam"; api = 0', "Cam was written for hook API 0; this is 2"),
-        ('name = "cam"', 'name = "cam"; api = 3', "Cam was written for hook API 3; this is 2"),
-        ('name = "cam"', 'name = "cam"; api = 1.0', "Cam was written for hook API 1.0; this is 2"),
-        ('name = "cam"', 'name = "cam"; api = None', "Cam was written for hook API None; this is 2"),
+        (
+            'name = "cam"',
+            'name = "cam"; api = 0',
+            f"Cam was written for hook API 0; this is {HOOK_API}: {MOVING} says how to move",
+        ),
+        ('name = "cam"', 'name = "cam"; api = 99', f"Cam was written for hook API 99; this is {HOOK_API}"),
+        ('name = "cam"', 'name = "cam"; api = 1.0', f"Cam was written for hook API 1.0; this is {HOOK_API}"),
+        (
+            'name = "cam"',
+            'name = "cam"; api = None',
+            f"Cam was written for hook API None; this is {HOOK_API}",
+        ),
+        *(
+            (
+                "def parts(self",
+                f"def {name}(self, *more): return []\n    def parts(self",
+                f"Cam overrides {name}, which follows from rules since hook API 3; {MOVING} says how to move",
+            )
+            for name in ("check", "judge", "evaluate")
+        ),
+        (
+            "Params = Parameters",
+            "Params = Parameters\n    check = judge = 7",
+            "Cam overrides check, which follows from rules since hook API 3",
+        ),
         ('name = "cam"', "name = 7", "Cam has no name"),
         ('name = "cam"', 'name = "../cam"', "name '../cam' is not of lower-case letters"),
         ('name = "cam"', 'name = "Cam"', "name 'Cam' is not of lower-case letters"),
@@ -210,20 +231,20 @@ def test_a_plugin_that_loads_without_an_end(plugin, monkeypatch, source, where):
         ("Params = Parameters", "", "Cam has no Params"),
         ("def parts(self", "def bits(self", "Cam(): TypeError: Can't instantiate abstract class Cam"),
         (
-            "def check(self",
-            "def __init__(self): 1 / 0\n    def check(self",
+            "def solve(self",
+            "def __init__(self): 1 / 0\n    def solve(self",
             "Cam(): ZeroDivisionError",
         ),
-        ("def check(self", "def __init__(self): exit()\n    def check(self", "Cam(): SystemExit"),
+        ("def solve(self", "def __init__(self): exit()\n    def solve(self", "Cam(): SystemExit"),
         (
-            "def check(self",
-            "def __init__(self): raise GeneratorExit\n    def check(self",
+            "def solve(self",
+            "def __init__(self): raise GeneratorExit\n    def solve(self",
             "Cam(): GeneratorExit",
         ),
         (
-            "def check(self",
-            "def __init__(self): self.solve = self.check = print\n    def check(self",
-            "Cam(): sets check, solve; a method stands in the class",
+            "def solve(self",
+            "def __init__(self): self.solve = self.parts = print\n    def solve(self",
+            "Cam(): sets parts, solve; a method stands in the class",
         ),
     ],
 )

@@ -8,7 +8,7 @@ import pytest
 import mechwright
 from mechwright.cli.hosting import warn_broken
 from mechwright.contracts.exporter import Exporter
-from mechwright.contracts.plugin import HOOK_API, HOOK_API_SINCE
+from mechwright.contracts.plugin import HOOK_API, HOOK_API_SINCE, MOVING
 from mechwright.plugins.host import GROUP, load
 
 PLUGIN = f"""
@@ -49,7 +49,7 @@ NEXT = f"{MAJOR}.{MINOR + 1}"
 def test_the_contracts_before_are_read_in_the_version_that_raised_them(found, version):
     host = found(version)
     assert list(host.of(Exporter)) == ["stl"]
-    said = f"{SAID}, and {NEXT} refuses {HOOK_API - 1}: change it as docs/plugins.md says"
+    said = f"{SAID}, and {NEXT} refuses {HOOK_API - 1}: {MOVING} says how to move"
     assert [str(one) for one in host.outdated] == [said]
     assert host.broken == []
 
@@ -59,7 +59,9 @@ def test_the_next_version_refuses_them(found, version):
     host = found(version)
     assert not host.of(Exporter)
     assert host.outdated == []
-    assert [str(one) for one in host.broken] == [SAID.replace("third-party:", "third-party is not used:")]
+    assert [str(one) for one in host.broken] == [
+        SAID.replace("third-party:", "third-party is not used:") + f": {MOVING} says how to move"
+    ]
 
 
 def test_the_command_line_warns(found, capsys):

@@ -3,7 +3,18 @@
 import numpy as np
 import pytest
 
-from mechwright import DesignError, Family, Finding, Instance, Motion, Outline, Parameters, Part, Stage
+from mechwright import (
+    DesignError,
+    DesignRule,
+    Family,
+    Instance,
+    Motion,
+    Outline,
+    Parameters,
+    Part,
+    Stage,
+    in_turn,
+)
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.masses import masses_of
 from mechwright.contracts.motion import Channel
@@ -23,12 +34,8 @@ class Blocks(Family[BlockParams]):
     name, title, summary = "blocks", "Blocks", "Two blocks and a spare one."
     Params = BlockParams
 
-    def check(self, params):
-        return (
-            [Finding.error("blocks.flat", "width", "is too flat", stage=Stage.PARTS)]
-            if params.width < 1
-            else []
-        )
+    def rules(self):
+        return in_turn(DesignRule("blocks.flat", "width", "is too flat", lambda t: t.params.width, 1))
 
     def solve(self, params, samples):
         x = np.linspace(0, 1, samples)

@@ -79,14 +79,14 @@ def test_where_keys_are_too_many_another_value_of_one_stands_for_two(monkeypatch
 
 def test_the_first_proposal_that_holds_is_taken_and_one_that_does_not_is_not():
     class Proposing(Beam):
-        def check(self, params):
+        def found(self, params):
             proposed = (
                 {"parameters.width": 25},
                 {"parameters.nothing": 1},
                 {"parameters.width": 45},
                 {"parameters.width": 44},
             )
-            found = [*super().check(params)]
+            found = [*super().found(params)]
             return [
                 one
                 if one.severity is Severity.NOTE
@@ -100,10 +100,10 @@ def test_the_first_proposal_that_holds_is_taken_and_one_that_does_not_is_not():
 
 def test_a_proposal_is_written_without_the_last_digits_of_its_reckoning():
     class Reckoning(Beam):
-        def check(self, params):
+        def found(self, params):
             return [
                 error(one.code, one.parameter, "x", proposed=({"parameters.width": 3 * 14.7},))
-                for one in errors(super().check(params))
+                for one in errors(super().found(params))
             ]
 
     assert 3 * 14.7 != 44.1
@@ -113,7 +113,7 @@ def test_a_proposal_is_written_without_the_last_digits_of_its_reckoning():
 
 def test_where_nothing_helps_it_says_what_was_tried():
     class Hopeless(Beam):
-        def check(self, params):
+        def found(self, params):
             return [error("beam.never", "width", "try holes or pins.first")]
 
     (never,) = told(design(Hopeless))
@@ -127,7 +127,7 @@ def test_what_gets_past_an_error_of_the_motion_says_where_it_leads():
     class Standing(Beam):
         """Stands at every width but one, with which it is seen to be hopeless."""
 
-        def check(self, params):
+        def found(self, params):
             if params.width == 45:
                 return [error("beam.never", "length", "try holes")]
             moving = error("beam.stands", "width", "x", proposed=({"parameters.width": 45},))
@@ -142,7 +142,7 @@ def test_a_remedy_that_spoils_something_else_is_none():
     class Squeezed(Beam):
         """Width is too small below 40, and too large above: nothing but length helps."""
 
-        def check(self, params):
+        def found(self, params):
             found = [error("beam.slender", "width", "make width larger")] if params.width < 40 else []
             return [*found, *([error("beam.wide", "width", "smaller")] if params.width > 30 else [])]
 
@@ -151,7 +151,7 @@ def test_a_remedy_that_spoils_something_else_is_none():
 
 def test_what_raises_is_no_remedy():
     class Fragile(Beam):
-        def check(self, params):
+        def found(self, params):
             if params.width > 20:
                 raise ZeroDivisionError
             return [error("beam.never", "width", "no")]
@@ -250,9 +250,9 @@ def test_the_kit_refuses_a_family_whose_printed_remedies_do_not_hold(monkeypatch
 
 def test_a_note_that_stays_is_no_finding_that_stays():
     class Telling(Beam):
-        def check(self, params):
+        def found(self, params):
             note = Finding("beam.slender", Severity.NOTE, "width", "so slender it is")
-            return [note, *super().check(params)]
+            return [note, *super().found(params)]
 
     slender = told(design(Telling, length=437.5))[1]
     assert slender.fix == {"parameters.width": 44}

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from beam_family import Beam, bench, design, error, told
 
-from mechwright.contracts.finding import Finding, until_error
+from mechwright.contracts.finding import Finding, errors
 from mechwright.remedies import Limits, nearest, of_family
 from mechwright.remedies.remedied import with_proposed
 from mechwright.testing.fixes import fix_faults
@@ -15,13 +15,14 @@ class Proven(Beam):
 
     name = "proven"
 
-    def check(self, params):
-        return until_error(params, self._first, self._second, self._proof)
+    def found(self, params):
+        found = super().found(params)
+        return found if errors(found) else [*found, *self._proof(params)]
 
-    def judge(self, params):
+    def found_fast(self, params):
         return [
             Finding.error(one.code, one.parameter, one.message) if one.code == "beam.slender" else one
-            for one in until_error(params, self._first, self._second)
+            for one in super().found(params)
         ]
 
     def _proof(self, params):
@@ -52,9 +53,9 @@ def test_a_search_asks_the_judge_and_its_last_word_is_that_of_the_check():
     class Counted(Proven):
         name = "counted"
 
-        def check(self, params):
+        def found(self, params):
             asked.append(params)
-            return super().check(params)
+            return super().found(params)
 
     of = design(Counted, length=437.5, width=20, holes=20, pins="{second = 3}")
     search = of_family(of, Limits())

@@ -48,8 +48,8 @@ def test_a_parameter_with_one_value_does_not_have_to_count():
 
 def test_a_parameter_that_matters_seldom_needs_a_variation():
     class Seldom(with_params(flag=(int, Field(0, ge=0, le=10_000, description="Matters at 4321 only.")))):
-        def check(self, params):
-            found = super().check(params)
+        def found(self, params):
+            found = super().found(params)
             if params.flag == 4321:
                 found.append(Finding("disc.flag", Severity.NOTE, "flag", "x"))
             return found
@@ -90,7 +90,7 @@ def test_a_family_that_gives_up_without_a_finding():
 
 def test_a_family_that_refuses_everything():
     class Sour(Disc):
-        def check(self, params):
+        def found(self, params):
             return [Finding("disc.no", Severity.ERROR, "bore", "no", remedy="none")]
 
     assert_refused(Sour, "test_random_designs_build_or_are_refused", "no random table is a design")

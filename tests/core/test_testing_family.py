@@ -98,8 +98,8 @@ def with_part(**changes):
 
 def with_finding(*arguments, **more):
     class Other(Disc):
-        def check(self, params):
-            return [*super().check(params), Finding(*arguments, **more)]
+        def found(self, params):
+            return [*super().found(params), Finding(*arguments, **more)]
 
     return Other
 

@@ -194,7 +194,6 @@ class P(Parameters):
 class Rude(Family[P]):
     name = title = summary = "rude"
     Params = P
-    def check(self, params): return []
     def solve(self, params, samples): raise NotImplementedError
     def parts(self, params): return []
 {more}

@@ -15,6 +15,8 @@ from pydantic import ValidationError
 
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
 from mechwright.contracts.holes import joined
+from mechwright.contracts.procedure import Procedure
+from mechwright.contracts.rule_list import all_of
 from mechwright.designs.design import load
 from mechwright.plugins.host import host
 from mechwright_cad.interference import interference, interference_findings, smooth_motion
@@ -193,9 +195,10 @@ def test_a_collision_at_another_phase_is_an_error_that_says_which():
     class Lifted(EllipticGears):
         """At 135 degrees gear 3 stands 5 mm higher, and at 45 degrees it cannot be made."""
 
-        def check(self, params):
+        def rules(self):
             no = Finding.error("gear.made-up", "phase", "gear 3 is gone", remedy="none", stage=Stage.PARTS)
-            return (*super().check(params), *([no] if params.phase == 45 else []))
+            gone = Procedure(("gear.made-up",), lambda t: [no] if t.params.phase == 45 else [])
+            return all_of(super().rules(), gone)
 
         def parts(self, params):
             lifted = params.phase == 135

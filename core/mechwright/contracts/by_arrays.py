@@ -1,19 +1,7 @@
-"""Evaluation of many designs by arrays, for families that have formulas for it.
+"""Many designs by arrays: tables that are allowed, some thousand at once, and what is found of them.
 
-A family writes one function of :class:`Designs`, and calls :func:`by_arrays` from its ``evaluate``::
-
-    def evaluate(self, batch, columns, stage=Stage.PARTS):
-        from mechwright_scotch_yoke.evaluation import answer
-
-        return by_arrays(self, batch, columns, stage, answer)
-
-``answer(designs, columns, stage)`` gets designs whose tables are allowed, some thousand at once, so that
-arrays stay in the cache. ``designs["crank"]`` is an array (n,) where the crank is varied and a plain number
-where it is not; :meth:`Designs.full` is an array in any case. It gives an :class:`Answer`, or None where it
-has no way for what is varied: it is then asked once for each set of texts and switches among the designs, as
-if these were not varied, and then for each set of whole numbers, if they are few. It may leave any design
-undecided, and any column out: what it does not decide is checked and solved one by one, and columns that it
-leaves out are taken from the motion of each design that is allowed.
+What the arrays do not decide is checked and solved design by design. Columns that they leave out are taken
+from the motion of each design that is allowed.
 """
 
 from collections.abc import Callable, Collection, Mapping
@@ -30,14 +18,10 @@ from mechwright.contracts.finding import Stage
 from mechwright.contracts.parameters import value_at
 from mechwright.contracts.refusals import refusals
 from mechwright.contracts.singly import Asked, singly
-from mechwright.contracts.slices import Chunk, Skipped, Slices
+from mechwright.contracts.slices import Slices
 
 CHUNK = 4096
 """Designs that are answered at once: some dozens of arrays of them stay in the cache."""
-
-OF_A_KIND = 8
-"""Designs of a kind, on average, from which on each kind is asked for by itself: so many of them one by one
-take longer than calls of numpy."""
 
 
 @dataclass(frozen=True)
@@ -149,73 +133,45 @@ def by_arrays(
     batch: Batch[Any],
     columns: Collection[str],
     stage: Stage,
-    answer: Callable[[Designs, Collection[str], Stage], Answer | None],
+    answer: Callable[[Designs, Collection[str], Stage], Answer],
     chunk: int = CHUNK,
 ) -> Columns:
-    """What :meth:`Family.evaluate` says, by arrays where ``answer`` has a way, design by design where not."""
+    """What :meth:`Family.evaluate` says: by ``answer``, and design by design what that leaves undecided.
+
+    Parameters
+    ----------
+    answer
+        Gives what arrays find of designs, ``chunk`` of them at most: it may leave designs undecided, and
+        columns out.
+    """
     slices = batch.slices or Slices()
-    told = slices.memo(refusals, lambda: refusals(batch))
+    told = slices.memo(lambda: refusals(batch))
     found = _Found(batch, columns, told.codes, told.forbidden.copy())
     slow = ~told.known
-    left = np.flatnonzero(told.known & (told.forbidden == 0))
-    root: tuple[int, ...] = (slices.call(),)
-    kinds = [(root, left, Designs(told.common, told.values))]
-    while kinds:
-        kind, places, designs = kinds.pop()
-        for start in range(0, places.size, chunk):
-            some = places[start : start + chunk]
-            hang_on_it = places.size if start == 0 else some.size
-            find = partial(_answered, answer, designs.some(some), columns, stage)
-            said = slices.answer(Chunk(kind, start), some, hang_on_it, find)
-            if isinstance(said, Skipped):
-                if start == 0 and slices.only is None:
-                    break  # it tells whether arrays have a way
-                continue
-            if said is None:
-                more = _alike(batch, designs, places[start:])
-                kinds += [((*kind, number), *one) for number, one in enumerate(more)]
-                slow[places[start:]] = not more
-                break
-            slow[some[said.undecided]] = True
-            found.take(some, said)
-            if missing := [name for name in columns if name not in said.values]:
-                solved = some[said.open]
-                found.merge(solved, singly(family, batch, missing, stage, solved, judged=False))
+    places = np.flatnonzero(told.known & (told.forbidden == 0))
+    for start in range(0, places.size, chunk):
+        some = places[start : start + chunk]
+        designs = Designs(told.common, {name: values[some] for name, values in told.values.items()})
+        said = slices.answer(start, some, partial(_answered, answer, designs, columns, stage))
+        if said is None:
+            continue
+        slow[some[said.undecided]] = True
+        found.take(some, said)
+        if missing := [name for name in columns if name not in said.values]:
+            solved = some[said.open]
+            found.merge(solved, singly(family, batch, missing, stage, solved, judged=False))
     if slow.any():
         rest = np.flatnonzero(slow)
         found.merge(rest, singly(family, batch, columns, stage, rest))
     return Columns(found.values, found.forbidden, tuple(found.codes))
 
 
-def _alike(
-    batch: Batch[Any], designs: Designs, places: NDArray[np.intp]
-) -> list[tuple[NDArray[np.intp], Designs]]:
-    """Places of designs with the same texts and switches, or with none of these the same whole numbers.
-
-    What is the same is not varied among them. Nothing where there are too many such sets, or no such values.
-    """
-    texts = [name for name, values in designs.varied.items() if values.dtype.kind not in "fi"]
-    names = texts or [name for name, values in designs.varied.items() if values.dtype.kind == "i"]
-    if not 0 < len(names) < len(designs.varied):
-        return []
-    kind = np.zeros(places.size, np.int64)
-    for name in names:
-        _, which = np.unique(designs.varied[name][places], return_inverse=True)
-        _, kind = np.unique(kind * (which.max() + 1) + which.reshape(-1), return_inverse=True)
-    if (kind.max() + 1) * OF_A_KIND > places.size:
-        return []
-    rest = {name: values for name, values in designs.varied.items() if name not in names}
-    order = np.argsort(kind, kind="stable")
-    groups = np.split(places[order], np.flatnonzero(np.diff(kind[order])) + 1)
-    return [(group, Designs(batch.one(int(group[0])), rest)) for group in groups]
-
-
 def _answered(
-    answer: Callable[[Designs, Collection[str], Stage], Answer | None],
+    answer: Callable[[Designs, Collection[str], Stage], Answer],
     designs: Designs,
     columns: Collection[str],
     stage: Stage,
-) -> Answer | None:
+) -> Answer:
     with np.errstate(all="ignore"):
         return answer(designs, columns, stage)
 

@@ -45,7 +45,12 @@ def findings_of(family: Checked, params: Parameters, *, quick: bool) -> tuple[Fi
 def _found(family: Checked, params: Parameters, quick: bool) -> tuple[Finding, ...]:
     try:
         with np.errstate(all="ignore"):
-            found = family.rules().findings(family.table(params), quick=quick)
+            rules = family.rules()
+            if not isinstance(rules, Rules):
+                raise UnsoundError(
+                    f"rules() gives {type(rules).__name__}; rules are wanted, as in_turn and all_of give"
+                )
+            found = rules.findings(family.table(params), quick=quick)
     except RuleError as error:
         raise UnsoundError(str(error)) from error
     return tuple(found if quick else (family.remedy(params, one) for one in found))

@@ -160,7 +160,7 @@ class DesignRule(Generic[D]):
         """Give the designs (n,) that break it; see :class:`RuleLike`."""
         if self.severity is not Severity.ERROR or self.stage.is_after(stage) or self.slow == "value":
             return None
-        asked = _truth(True if self.when is None else self.when(table), table.size)
+        asked = truth_of(True if self.when is None else self.when(table), table.size)
         if not asked.any():
             return None
         if asked.all():
@@ -178,7 +178,7 @@ class DesignRule(Generic[D]):
         """Give the designs (n,) that break it, of those that are asked."""
         if self.worst is None:
             return self._compared(table)
-        doubt = _truth(_breaks(self.must_be, self.worst(table), self._limit(table)), table.size)
+        doubt = truth_of(_breaks(self.must_be, self.worst(table), self._limit(table)), table.size)
         if doubt.all():
             return self._compared(table)
         wrong, unsure = np.zeros(table.size, bool), np.flatnonzero(doubt)
@@ -190,7 +190,7 @@ class DesignRule(Generic[D]):
         value = np.asarray(self.value(table), dtype=float)
         if np.isnan(value).any():
             raise RuleError(self.code, value, table)
-        return _truth(_breaks(self.must_be, value, self._limit(table)), table.size)
+        return truth_of(_breaks(self.must_be, value, self._limit(table)), table.size)
 
     def _limit(self, table: D) -> Any:
         return self.limit(table) if callable(self.limit) else self.limit
@@ -242,113 +242,6 @@ class DesignRule(Generic[D]):
         )
 
 
-@dataclass(frozen=True)
-class Procedure(Generic[D]):
-    """What is found of one design by a procedure, where no value and limit say it.
-
-    Parameters
-    ----------
-    codes
-        Of what it finds.
-    inspect
-        What it finds of one design.
-    common
-        Whether it looks at nothing but what the designs of a table have in common.
-    when
-        Which designs are asked.
-    slow
-        Whether it takes long: the quick judge does not ask it.
-    stage
-        The earliest stage of what it finds: studies up to an earlier one do not ask it.
-    certain
-        Whether it finds an error of that stage in every design that is asked: tables are not inspected.
-    warns
-        Whether it finds no errors, and so forbids nothing.
-    quickly
-        Whether only tables and the quick judge ask it: a slow one finds the same, and more.
-    """
-
-    codes: Sequence[str]
-    inspect: Callable[[D], Iterable[Finding]]
-    common: bool = False
-    when: Callable[[D], Any] | None = None
-    slow: bool = False
-    stage: Stage = Stage.MOTION
-    certain: bool = False
-    warns: bool = False
-    quickly: bool = False
-
-    def forbids(self, table: D, stage: Stage) -> Bools | None:
-        """Give the designs (n,) in which it finds an error: the first tells of all, or each of itself."""
-        if self.slow or self.warns or not table.size or self.stage.is_after(stage):
-            return None
-        asked = _truth(True if self.when is None else self.when(table), table.size)
-        if self.certain:
-            return asked
-        if self.common:
-            return asked & self._stops(table.row(0), stage) if asked.any() else None
-        wrong = np.zeros(table.size, bool)
-        for place in np.flatnonzero(asked).tolist():
-            wrong[place] = self._stops(table.row(place), stage)
-        return wrong
-
-    def code_of(self, table: D, stage: Stage) -> str:
-        """Give the code of what forbids designs: of several common ones the first error's."""
-        if not self.common or len(self.codes) == 1:
-            return self.codes[0]
-        return next(one.code for one in self.inspect(table.row(0)) if _forbids(one, stage))
-
-    def _stops(self, m: D, stage: Stage) -> bool:
-        return any(_forbids(one, stage) for one in self.inspect(m))
-
-    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
-        """Give what it finds of one design; see :class:`RuleLike`."""
-        if self.slow if quick else self.quickly:
-            return
-        if self.when is None or np.any(self.when(m)):
-            yield from self.inspect(m)
-
-
-@dataclass(frozen=True)
-class Note(Generic[D]):
-    """A figure worth knowing.
-
-    Parameters
-    ----------
-    code, message, unit
-        Of the finding.
-    value
-        A formula of the design.
-    when
-        Whether there is something to say of a design.
-    stage
-        Of the finding.
-    """
-
-    code: str
-    message: "str | Callable[[D], str]"
-    value: Callable[[D], float] | None = None
-    unit: str = ""
-    when: Callable[[D], Any] | None = None
-    stage: Stage = Stage.PARTS
-
-    @property
-    def codes(self) -> Sequence[str]:
-        """Its code."""
-        return (self.code,)
-
-    def forbids(self, table: D, stage: Stage) -> None:
-        """Give None; see :class:`RuleLike`."""
-
-    def findings(self, m: D, *, quick: bool) -> Iterator[Finding]:
-        """Give the note of one design; see :class:`RuleLike`."""
-        if quick or (self.when is not None and not np.any(self.when(m))):
-            return
-        value = None if self.value is None else float(self.value(m))
-        said = self.message(m) if callable(self.message) else self.message.format(m=m, value=value)
-        yield Finding(self.code, Severity.NOTE, "", said, value, unit=self.unit, stage=self.stage)
-
-
 def no_figures(failure: Failure[Any]) -> tuple[None, None]:  # noqa: ARG001 - the same of every failure
     """Give no value and no limit: ``reported`` of a rule that compares nothing that people measure."""
     return None, None
@@ -382,11 +275,7 @@ def _breaks(must_be: Comparison, value: Any, limit: Any) -> Any:
     return ~np.asarray(value > limit) if must_be == "above" else ~np.asarray(value < limit)
 
 
-def _forbids(finding: Finding, stage: Stage) -> bool:
-    return finding.severity is Severity.ERROR and not finding.stage.is_after(stage)
-
-
-def _truth(value: Any, size: int) -> Bools:
+def truth_of(value: Any, size: int) -> Bools:
     """Give truth values (n,) of what may be one for all, a column, or items (n, k) of which any counts."""
     array: Bools = np.asarray(value, dtype=bool)
     return np.broadcast_to(np.any(array, axis=-1) if array.ndim > 1 else array, (size,))

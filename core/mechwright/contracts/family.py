@@ -2,11 +2,12 @@
 
 from abc import abstractmethod
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from inspect import unwrap
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, final
 
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.plugin import Plugin
+from mechwright.contracts.plugin import MOVING, Plugin
 from mechwright.errors import DesignError
 
 if TYPE_CHECKING:
@@ -74,6 +75,14 @@ class Family(Plugin, Generic[P]):
     sampled: ClassVar[int] = 64
     """Designs of it whose channels are evaluated at once."""
 
+    @classmethod
+    def fault(cls) -> str:
+        """Say which method it overrides that follows from its rules; see :meth:`Plugin.fault`."""
+        own = (name for name in sorted(cls.derived) if unwrap(getattr(cls, name)) is not vars(Family)[name])
+        if (name := next(own, None)) is None:
+            return super().fault()
+        return f"overrides {name}, which follows from rules since hook API 3; {MOVING} says how to move"
+
     def rules(self) -> "Rules[Any]":
         """What an engineer objects to, in order: see :mod:`mechwright.contracts.design_rule`."""
         from mechwright.contracts.rule_list import in_turn
@@ -94,12 +103,14 @@ class Family(Plugin, Generic[P]):
         """A finding of its rules with the remedy that is found by looking at the whole design."""
         return finding
 
+    @final
     def check(self, params: P) -> "Findings":
         """Everything that an engineer would object to, and the figures worth knowing: from its rules."""
         from mechwright.contracts.checking import findings_of
 
         return findings_of(self, params, quick=False)
 
+    @final
     def judge(self, params: P) -> "Findings":
         """What ``check`` finds, as far as it is found fast: asked of hundreds of designs to find a remedy.
 
@@ -108,7 +119,7 @@ class Family(Plugin, Generic[P]):
         """
         from mechwright.contracts.checking import findings_of
 
-        return findings_of(self, params, quick=True) if self.rules().every else self.check(params)
+        return findings_of(self, params, quick=True)
 
     @abstractmethod
     def solve(self, params: P, samples: int) -> "WholeMotion":
@@ -355,6 +366,7 @@ class Family(Plugin, Generic[P]):
             return found
         return found | dict.fromkeys(names_of(self.parts(params)), UNIT)
 
+    @final
     def evaluate(
         self, batch: "Batch[P]", columns: Collection[str], stage: Stage = Stage.PARTS
     ) -> "Evaluated":

@@ -205,19 +205,6 @@ def of_stage(
     return decorate
 
 
-def until_error(subject: S, *checks: Callable[[S], Iterable[Finding]]) -> tuple[Finding, ...]:
-    """Run checks one after the other, up to the first that finds an error: later ones rely on the earlier.
-
-    Checks of the motion come first: an error of the parts would hide what they have to say.
-    """
-    found: list[Finding] = []
-    for check in checks:
-        found += check(subject)
-        if errors(found):
-            break
-    return tuple(found)
-
-
 def refuse(
     findings: Iterable[Finding],
     stage: Stage = Stage.OUTPUT,

@@ -20,11 +20,14 @@ from typing import Any, ClassVar
 
 from mechwright.contracts.guard import UnsoundError, time_limit, watched
 
-HOOK_API = 2
+HOOK_API = 3
 """Version of the contracts of this program; a class states the one that it was written for."""
 
-HOOK_API_SINCE = "0.1"
+HOOK_API_SINCE = "0.9"
 """The minor version of this program that brought it, and the only one that reads the version before, too."""
+
+MOVING = "docs/plugins/moving.md"
+"""The page that tells how a plugin moves from the version before."""
 
 
 class Plugin(ABC):

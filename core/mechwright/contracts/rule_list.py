@@ -19,9 +19,10 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.contracts.design_rule import DesignRule, Procedure, RuleLike
+from mechwright.contracts.design_rule import DesignRule, RuleLike
 from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.finding import Finding, Severity, Stage, errors
+from mechwright.contracts.procedure import Procedure
 
 D = TypeVar("D", bound=DesignTable[Any])
 
@@ -158,8 +159,9 @@ class Rules(Generic[D]):
                 places, table, wrong = places[sound], table.rows(sound), wrong[sound]
             if wrong is None or not wrong.any():
                 continue
-            code = rule.code_of(table, stage) if isinstance(rule, Procedure) else rule.codes[0]
-            forbid(code, places[wrong])
+            told = rule.told(table, wrong, stage) if isinstance(rule, Procedure) else [(rule.codes[0], wrong)]
+            for code, which in told:
+                forbid(code, places[which])
             left = np.flatnonzero(~wrong)
             places, table = places[left], table.rows(left)
         return table, places

@@ -3,8 +3,7 @@
 A batch is answered by two kinds of work. Its *chunks* are the designs that one call of arrays answers, always
 the same ones; all other designs are asked *singly*. Neither depends on what else is evaluated with it.
 
-A family that evaluates by :func:`~mechwright.contracts.by_arrays.by_arrays`, or as the contract does by
-default, is divided without knowing it. An ``evaluate`` of another kind is one slice.
+A family is divided without knowing it.
 """
 
 import math
@@ -18,13 +17,6 @@ from numpy.typing import NDArray
 
 T = TypeVar("T")
 Places = NDArray[np.intp]
-
-
-class Chunk(NamedTuple):
-    """A call of arrays: its kind, a path of ordinals, and where it starts among the places of the kind."""
-
-    kind: tuple[int, ...]
-    start: int
 
 
 class Question(NamedTuple):
@@ -70,17 +62,10 @@ class Singles:
 
 
 class Answered(NamedTuple):
-    """A chunk's places (n,) in its batch, and its ``Answer``: None where arrays have no way."""
+    """A chunk's places (n,) in its batch, and its ``Answer``."""
 
     places: Places
     answer: Any
-
-
-class Skipped:
-    """Given in place of an answer that is not known and not evaluated now."""
-
-
-SKIPPED = Skipped()
 
 
 @dataclass
@@ -90,10 +75,10 @@ class Work:
     Parameters
     ----------
     answers, singles
-        What is there.
+        What is there: answers of chunks, by where each starts among the designs that arrays answer.
     """
 
-    answers: dict[Chunk, Answered] = field(default_factory=dict)
+    answers: dict[int, Answered] = field(default_factory=dict)
     singles: dict[Question, Singles] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
@@ -128,48 +113,42 @@ class Slices:
 
     known: Work = field(default_factory=Work)
     until: float = math.inf
-    only: frozenset[Chunk] | None = None
+    only: frozenset[int] | None = None
     fresh: Work = field(default_factory=Work, init=False)
     """What was evaluated."""
-    chunks: dict[Chunk, int] = field(default_factory=dict, init=False)
-    """Chunks that are left, and how many designs hang on each."""
+    chunks: list[int] = field(default_factory=list, init=False)
+    """Chunks that are left."""
     left: dict[Question, Places] = field(default_factory=dict, init=False)
     """Designs that are left to be asked singly."""
-    _memo: dict[object, Any] = field(default_factory=dict, init=False)
-    _calls: int = field(default=0, init=False)
+    _memo: Any = field(default=None, init=False)
 
-    def begin(self, known: Work, until: float, only: frozenset[Chunk] | None = None) -> None:
+    def begin(self, known: Work, until: float, only: frozenset[int] | None = None) -> None:
         """Start anew with the same batch."""
         self.known, self.until, self.only = known, until, only
-        self.fresh, self.chunks, self.left, self._calls = Work(), {}, {}, 0
+        self.fresh, self.chunks, self.left = Work(), [], {}
 
     @property
     def complete(self) -> bool:
         """Whether nothing is left."""
         return not self.chunks and not self.left
 
-    def call(self) -> int:
-        """Ordinal of a call for arrays in this evaluation."""
-        self._calls += 1
-        return self._calls - 1
-
-    def memo(self, key: object, find: Callable[[], T]) -> T:
+    def memo(self, find: Callable[[], T]) -> T:
         """What is the same in every evaluation of the batch."""
-        if key not in self._memo:
-            self._memo[key] = find()
-        found: T = self._memo[key]
+        if self._memo is None:
+            self._memo = find()
+        found: T = self._memo
         return found
 
-    def answer(self, chunk: Chunk, places: Places, rest: int, find: Callable[[], T]) -> "T | Skipped":
-        """The answer of a chunk, known or found; ``rest`` are the designs that hang on it."""
+    def answer(self, chunk: int, places: Places, find: Callable[[], T]) -> T | None:
+        """The answer of a chunk, known or found; None where it is left."""
         known = self.known.answers.get(chunk)
-        if known is not None and (known.answer is None or np.array_equal(known.places, places)):
+        if known is not None and np.array_equal(known.places, places):
             found: T = known.answer
             return found
         if (self.only is not None and chunk not in self.only) or not self._goes_on:
             if self.only is None or chunk in self.only:
-                self.chunks[chunk] = rest
-            return SKIPPED
+                self.chunks.append(chunk)
+            return None
         answer = find()
         self.fresh.answers[chunk] = Answered(places, answer)
         return answer

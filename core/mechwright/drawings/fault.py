@@ -9,12 +9,15 @@ MOST = 12
 """Faults that are told of one drawing: whoever has mended a dozen reads it again."""
 
 
+FAULTS = ("file", "units", "entity", "layer", "contour", "feature")
+"""Codes of faults."""
+
+
 @dataclass(frozen=True)
 class Fault:
     """One thing that keeps a drawing from being a part.
 
-    ``code`` is one of ``file``, ``units``, ``entity``, ``layer``, ``contour`` and ``feature``; ``key`` the
-    setting that may help: ``drawing``, ``units``, ``join`` ...
+    ``code`` is one of ``FAULTS``; ``key`` the setting that may help: ``drawing``, ``units``, ``join`` ...
     """
 
     code: str

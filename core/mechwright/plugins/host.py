@@ -234,7 +234,9 @@ def _class_fault(cls: Any, distribution: str) -> str:
         from mechwright.contracts.declared import unstated  # it needs numpy, which our own listings do not
 
         faults.append(unstated(contract, cls))
-    return f"{cls.__name__}: {faults[-1]}".replace(": has ", " has ") if faults[-1] else ""
+    return (
+        re.sub(": (has|overrides) ", r" \1 ", f"{cls.__name__}: {faults[-1]}", count=1) if faults[-1] else ""
+    )
 
 
 _MOVED = {

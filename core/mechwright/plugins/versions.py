@@ -2,7 +2,7 @@
 
 from importlib import import_module
 
-from mechwright.contracts.plugin import HOOK_API, HOOK_API_SINCE
+from mechwright.contracts.plugin import HOOK_API, HOOK_API_SINCE, MOVING
 
 
 def program() -> str:
@@ -34,24 +34,27 @@ def api_fault(api: object, version: str, current: int = HOOK_API, since: str = H
 
     >>> api_fault(2, "0.9.0", 2, "0.8"), api_fault(1, "0.8.7", 2, "0.8")
     ('', '')
-    >>> api_fault(1, "0.9.0", 2, "0.8"), api_fault(3, "0.9.0", 2, "0.8")
-    ('was written for hook API 1; this is 2', 'was written for hook API 3; this is 2')
+    >>> api_fault(1, "0.9.0", 2, "0.8")
+    'was written for hook API 1; this is 2: docs/plugins/moving.md says how to move'
+    >>> api_fault(3, "0.9.0", 2, "0.8")
+    'was written for hook API 3; this is 2'
     """
     if type(api) is int and (api == current or (api == current - 1 and minor(version) == minor(since))):
         return ""
-    return f"was written for hook API {api}; this is {current}"
+    said = f"was written for hook API {api}; this is {current}"
+    return f"{said}: {MOVING} says how to move" if type(api) is int and api < current else said
 
 
 def api_warning(api: object, version: str, current: int = HOOK_API, since: str = HOOK_API_SINCE) -> str:
     """What the author of a class that is used should know of its version; nothing if it is the newest.
 
     >>> api_warning(1, "0.8.7", 2, "0.8")
-    'was written for hook API 1; this is 2, and 0.9 refuses 1: change it as docs/plugins.md says'
+    'was written for hook API 1; this is 2, and 0.9 refuses 1: docs/plugins/moving.md says how to move'
     """
     if api == current or api_fault(api, version, current, since):
         return ""
     major, number = minor(since)
     return (
         f"was written for hook API {api}; this is {current}, and {major}.{number + 1} refuses {api}: "
-        "change it as docs/plugins.md says"
+        f"{MOVING} says how to move"
     )

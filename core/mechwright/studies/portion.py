@@ -1,14 +1,13 @@
 """A slice of a batch: what a worker is given to do of it, and what it gives."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.singly import singles_of
-from mechwright.contracts.slices import Answered, Chunk, Places, Question, Slices, Work
+from mechwright.contracts.slices import Places, Question, Slices, Work
 from mechwright.studies.shard import table_of
 from mechwright.studies.study import Study
 
@@ -20,10 +19,9 @@ class Survey(NamedTuple):
 
 
 class OfChunks(NamedTuple):
-    """Some chunks of it, as many as take so many seconds; arrays have no way for the kinds ``none``."""
+    """Some chunks of it, as many as take so many seconds."""
 
-    chunks: tuple[Chunk, ...]
-    none: frozenset[Chunk]
+    chunks: tuple[int, ...]
     seconds: float
 
 
@@ -47,14 +45,13 @@ class Portion:
     work
         What was evaluated.
     chunks, left
-        What is left of the whole batch, as far as a survey tells: chunks with the designs that hang on each,
-        and designs that are asked singly.
+        What is left of the whole batch, as far as a survey tells: chunks, and designs that are asked singly.
     seconds
         How long it took.
     """
 
     work: Work
-    chunks: dict[Chunk, int] = field(default_factory=dict)
+    chunks: Sequence[int] = ()
     left: dict[Question, Places] = field(default_factory=dict)
     seconds: float = 0.0
 
@@ -74,10 +71,8 @@ def portion(study: Study, batch: Batch[Any], first: int, order: Order) -> bytes 
         work = Work()
         work.add(order.question, found)
         return Portion(work, seconds=time.perf_counter() - begun)
-    none = order.none if isinstance(order, OfChunks) else frozenset[Chunk]()
     only = frozenset(order.chunks) if isinstance(order, OfChunks) else None
-    known = Work({chunk: Answered(np.zeros(0, np.intp), None) for chunk in none})
-    return _evaluated(study, batch, first, known, begun + order.seconds, only)
+    return _evaluated(study, batch, first, Work(), begun + order.seconds, only)
 
 
 def assembled(study: Study, batch: Batch[Any], first: int, known: Work) -> bytes | Portion:
@@ -91,7 +86,7 @@ def _evaluated(
     first: int,
     known: Work,
     until: float,
-    only: frozenset[Chunk] | None,
+    only: frozenset[int] | None,
 ) -> bytes | Portion:
     begun, slices = time.perf_counter(), batch.slices
     assert slices is not None  # noqa: S101 - it is sliced

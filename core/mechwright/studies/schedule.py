@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechwright.contracts.evaluation import Batch
-from mechwright.contracts.slices import Chunk, Places, Question, Work
+from mechwright.contracts.slices import Places, Question, Work
 from mechwright.errors import PluginFaultError
 from mechwright.studies.folder import SweepFolder
 from mechwright.studies.portion import OfChunks, OfPlaces, Order, Portion, Survey, assembled, sliced
@@ -32,6 +32,9 @@ FIRST = 1.0
 
 MOST_CHUNKS = 256
 """Chunks of a slice: its file says of each what it holds."""
+
+CHUNKS = "chunks"
+"""What the pace of chunks is kept under, beside that of each question."""
 
 GROWTH = 4
 """Times as many designs as in the slice before that the next one has at most: their times differ."""
@@ -56,7 +59,7 @@ class _Open:
     task: Task
     batch: Batch[Any]
     known: Work
-    chunks: dict[Chunk, int] = field(default_factory=dict)
+    chunks: list[int] = field(default_factory=list)
     left: dict[Question, Places] = field(default_factory=dict)
     away: int = 0
     saved: int = 0
@@ -77,11 +80,9 @@ class _Open:
     def order(self) -> Order:
         """The next slice."""
         if self.chunks:
-            chunks = tuple(self.chunks)[: min(self.size_of(Chunk), MOST_CHUNKS)]
-            for chunk in chunks:
-                del self.chunks[chunk]
-            none = frozenset(key for key, one in self.known.answers.items() if one.answer is None)
-            return OfChunks(chunks, none, LONGEST)
+            size = min(self.size_of(CHUNKS), MOST_CHUNKS)
+            chunks, self.chunks = tuple(self.chunks[:size]), self.chunks[size:]
+            return OfChunks(chunks, LONGEST)
         question, places = next(iter(self.left.items()))
         size = self.size_of(question)
         self.left.pop(question)
@@ -92,7 +93,7 @@ class _Open:
     def back(self, order: Order, done: Work) -> None:
         """Take back what of an order is not done."""
         if isinstance(order, OfChunks):
-            self.chunks = dict.fromkeys((c for c in order.chunks if c not in done.answers), 0) | self.chunks
+            self.chunks = [one for one in order.chunks if one not in done.answers] + self.chunks
         elif isinstance(order, OfPlaces):
             found = done.singles.get(order.question)
             places = order.places if found is None else order.places[found.places.size :]
@@ -103,7 +104,7 @@ class _Open:
     def learn(self, portion: Portion) -> None:
         """Know how long a piece takes."""
         kinds: list[tuple[object, int]] = [
-            (Chunk, len(portion.work.answers)),
+            (CHUNKS, len(portion.work.answers)),
             *((question, one.places.size) for question, one in portion.work.singles.items()),
         ]
         count = sum(number for _, number in kinds)
@@ -191,7 +192,7 @@ class Schedule:
             one.known.update(found.work)
             one.learn(found)
         if order is None or isinstance(order, Survey):
-            one.chunks, one.left = dict(found.chunks), dict(found.left)
+            one.chunks, one.left = list(found.chunks), dict(found.left)
         elif not found.work:
             name = self.study.family.name
             raise PluginFaultError(f"family {name}: evaluate() leaves out what it was asked for before")
@@ -213,7 +214,7 @@ class Schedule:
         if isinstance(found, bytes):
             self._finish(one.task, found)
         else:
-            one.chunks, one.left = dict(found.chunks), dict(found.left)
+            one.chunks, one.left = list(found.chunks), dict(found.left)
 
     def _finish(self, task: Task, table: bytes) -> None:
         self.place.store(task.name, table)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright.contracts.by_arrays import Answer
-from mechwright.contracts.slices import Answered, Chunk, Question, Singles, Work
+from mechwright.contracts.slices import Answered, Question, Singles, Work
 from mechwright.studies.shard import frame_of, read_file, require, telling, written
 from mechwright.studies.stamp import Stamp, sealed
 from mechwright.studies.study import Study
@@ -26,14 +26,10 @@ def slice_of(study: Study, work: Work, stamp: Stamp) -> bytes:
     units: list[dict[str, Any]] = []
     rows: list[tuple[NDArray[Any], NDArray[Any], NDArray[Any], dict[str, NDArray[Any]]]] = []
     for chunk, (places, answer) in work.answers.items():
-        given = [] if answer is None else [name for name in study.measured if name in answer.values]
-        units.append({"chunk": chunk, "given": given, "none": answer is None})
-        if answer is None:
-            places = places[:0]
-        codes = np.array(answer.codes if answer else [""], dtype=object)
-        which = answer.forbidden if answer else np.zeros(0, np.intp)
-        undecided = answer.undecided if answer else np.zeros(0, bool)
-        rows.append((places, codes[which], undecided, {name: answer.values[name] for name in given}))
+        given = [name for name in study.measured if name in answer.values]
+        units.append({"chunk": chunk, "given": given})
+        codes = np.array(answer.codes, dtype=object)[answer.forbidden]
+        rows.append((places, codes, answer.undecided, {name: answer.values[name] for name in given}))
     for question, found in work.singles.items():
         units.append({"judged": question.judged, "columns": question.columns})
         rows.append((found.places, found.codes, np.zeros(found.places.size, bool), dict(found.values)))
@@ -55,9 +51,8 @@ def designs_in(study: Study, work: Work) -> int:
     """How many designs some work has finished: they are never evaluated again."""
     count = sum(found.places.size for found in work.singles.values())
     for _, answer in work.answers.values():
-        if answer is not None:
-            whole = all(name in answer.values for name in study.measured)
-            count += int((answer.forbidden != 0).sum()) + (int(answer.open.sum()) if whole else 0)
+        whole = all(name in answer.values for name in study.measured)
+        count += int((answer.forbidden != 0).sum()) + (int(answer.open.sum()) if whole else 0)
     return count
 
 
@@ -90,9 +85,7 @@ def work_of(study: Study, path: Path, stamp: Stamp) -> Work:
 def _take(study: Study, work: Work, said: dict[str, Any], rows: dict[str, NDArray[Any]]) -> None:
     places = rows[PLACE].astype(np.intp)
     if "chunk" in said:
-        kind, start = said["chunk"]
-        chunk = Chunk(tuple(int(one) for one in kind), int(start))
-        work.answers[chunk] = Answered(places, None if said["none"] else _answer(study, said["given"], rows))
+        work.answers[int(said["chunk"])] = Answered(places, _answer(study, said["given"], rows))
         return
     asked = Question(bool(said["judged"]), _known(study, said["columns"]))
     work.add(asked, Singles(places, rows[CODE].astype(object), {name: rows[name] for name in asked.columns}))

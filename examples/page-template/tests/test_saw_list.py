@@ -34,9 +34,6 @@ class Sample(Family[Parameters]):
     summary = "A ring and a block."
     Params = Parameters
 
-    def check(self, params):
-        return []
-
     def solve(self, params, samples):
         still = Poses(np.zeros((samples, 3)), np.tile(np.eye(3), (samples, 1, 1)))
         return Motion("turn", {"turn": Channel(np.linspace(0.0, 1.0, samples), "rad")}, {"ring": still})

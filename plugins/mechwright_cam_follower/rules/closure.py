@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, KinematicsError, Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.finding import Change, errors
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import in_turn
 from mechwright.mechanics.laws.faults import polynomial_faults, table_faults
 from mechwright_cam_follower.kinematics.mechanism import Mechanism

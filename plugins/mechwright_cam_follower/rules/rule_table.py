@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from mechwright import Severity, material
-from mechwright.contracts.design_rule import DesignRule, Failure, Note
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.strength.allowed import allowed
 from mechwright_cam_follower.defaults.proportions import FITTED_FIELDS

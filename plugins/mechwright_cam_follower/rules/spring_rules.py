@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, Stage, kept
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure, no_figures
+from mechwright.contracts.design_rule import DesignRule, Failure, no_figures
 from mechwright.contracts.design_table import by_row
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.standards.linear_guides import linear_guides
 from mechwright.standards.spring_strength import fatigue_safety
 from mechwright.standards.springs import SCATTER

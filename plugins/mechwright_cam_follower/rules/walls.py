@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from mechwright import TOLERANCES, Array, Finding, Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure, Text
+from mechwright.contracts.design_rule import DesignRule, Failure, Text
 from mechwright.contracts.design_table import number
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.geometry.keyway import LEAST_WIDTH
 from mechwright.mechanics.opening_rules import keyed_rules, size_rules

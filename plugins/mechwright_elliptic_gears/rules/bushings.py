@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Finding, Stage, at_stage
-from mechwright.contracts.design_rule import Procedure
+from mechwright.contracts.procedure import Procedure
 from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.standards.bushes import bushes
 from mechwright_elliptic_gears.parts.gear import rack_of, room

@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from mechwright import Finding, Stage, at_stage
-from mechwright.contracts.design_rule import DesignRule, Note, Procedure
+from mechwright.contracts.design_rule import DesignRule
 from mechwright.contracts.design_table import by_row
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.mechanics.strength.bolts import CLAMP_SAFETY

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechwright import Finding, Stage, at_stage
-from mechwright.contracts.design_rule import Procedure
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.gearing.checks import LEAST_CLEARANCE, collision
 from mechwright.mechanics.gearing.tooth_rules import MESH as PROOF

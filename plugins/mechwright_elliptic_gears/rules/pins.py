@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, Stage, kept
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import by_row
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.gearing.checks import LEAST_RIM
 from mechwright.mechanics.strength.allowed import PIN_SHEAR, REVERSING_KEY, allowed

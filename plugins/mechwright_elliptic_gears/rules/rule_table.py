@@ -4,7 +4,7 @@ All of them are about the parts, for the pitch ellipses of every design roll on 
 is about what machining leaves of them.
 """
 
-from mechwright.contracts.design_rule import Note
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.gearing import body
 from mechwright.mechanics.gearing.tooth_rules import BACKLASH, FILLET, chosen_note

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Finding, Stage
-from mechwright.contracts.design_rule import DesignRule, Procedure
+from mechwright.contracts.design_rule import DesignRule
 from mechwright.contracts.finding import at_stage
+from mechwright.contracts.procedure import Procedure
 from mechwright.mechanics.linkage.clamp_findings import clamped
 from mechwright.mechanics.linkage.setting_findings import Turned, setting_order
 from mechwright.tolerances import exceeds

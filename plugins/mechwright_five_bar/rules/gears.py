@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from mechwright import GeometryError, Stage, refuse
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, no_figures
+from mechwright.contracts.design_rule import DesignRule, Failure, no_figures
 from mechwright.contracts.design_table import column
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import Rules, in_turn
 from mechwright.mechanics.linkage.planar_table import AnyPlanarTable
 from mechwright_five_bar.defaults.teeth import IN_LINE

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, GeometryError, Stage
-from mechwright.contracts.design_rule import Note, Procedure
 from mechwright.contracts.finding import at_stage
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.gearing.usual import chosen
 from mechwright.mechanics.linkage.stacking import STACK_SAMPLES

@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, Severity, Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, no_figures
+from mechwright.contracts.design_rule import DesignRule, Failure, no_figures
 from mechwright.contracts.design_table import column
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import in_turn
 from mechwright.mechanics.linkage.kinematics.period import course_of
 from mechwright.mechanics.planar import swing

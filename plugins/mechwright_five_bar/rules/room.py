@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.finding import at_stage
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.linkage.clamp_findings import no_clamp, too_near
 from mechwright.mechanics.linkage.rules.part_rules import bushing_rule, least_wall

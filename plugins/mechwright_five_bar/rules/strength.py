@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from mechwright import Array, Finding, GeometryError, Stage
-from mechwright.contracts.design_rule import Procedure
 from mechwright.contracts.design_table import column, number
 from mechwright.contracts.finding import Change, at_stage
 from mechwright.contracts.mass import KILOGRAMS
 from mechwright.contracts.materials import material
+from mechwright.contracts.procedure import Procedure
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
 from mechwright.mechanics.linkage.kinematics.forces import MILLI
 from mechwright.mechanics.linkage.turned import HEAD, HEAD_HEIGHT

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from mechwright import Finding, Severity
-from mechwright.contracts.design_rule import Procedure
+from mechwright.contracts.procedure import Procedure
 from mechwright.mechanics.linkage.setting_findings import Turned, setting_order
 from mechwright_four_bar.parts.phases import pose_angles, set_joints
 from mechwright_four_bar.table import FourBarTable

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from mechwright import Finding, Severity, Stage
-from mechwright.contracts.design_rule import Note
 from mechwright.contracts.finding import at_stage
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.linkage.clamp_findings import clamped
 from mechwright.mechanics.linkage.kinematics.forces import MILLI, period_forces

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 
 from mechwright import GeometryError
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import by_row
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.laws import LAWS
 from mechwright.mechanics.opening_rules import keyway_rules, size_rules

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.laws.faults import LawFault, polynomial_faults, table_faults
 from mechwright_geneva.kinematics.mechanism import Mechanism

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mechwright.contracts.design_rule import Note
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright_geneva.kinematics.figures import dwell_share, peaks_of
 from mechwright_geneva.kinematics.mechanism import Mechanism

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from mechwright import Severity, material
-from mechwright.contracts.design_rule import DesignRule, Failure, Note
+from mechwright.contracts.design_rule import DesignRule, Failure
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import all_of
 from mechwright.geometry.keyway import KeySize, key_of_width
 from mechwright.mechanics.strength.allowed import PIN_SHEAR, REVERSING_KEY, allowed

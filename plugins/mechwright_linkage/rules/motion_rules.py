@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, KinematicsError, Severity, Stage, refuse
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.linkage.kinematics.figures import least_transmission, worst_joint
 from mechwright.mechanics.linkage.kinematics.period import (

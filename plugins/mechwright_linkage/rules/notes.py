@@ -3,7 +3,7 @@
 import math
 
 from mechwright import Stage
-from mechwright.contracts.design_rule import Note
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.linkage.kinematics.figures import figures_of, least_transmission
 from mechwright.mechanics.linkage.kinematics.period import course_of

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from mechwright import Finding, Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import by_design, in_turn
 from mechwright_noncircular_gears.kinematics.law import LEAST_RATIO, Extreme, fastest_of, slowest_of
 from mechwright_noncircular_gears.kinematics.laws.formula import AngleFormula, RatioFormula

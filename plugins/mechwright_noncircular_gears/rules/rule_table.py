@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from mechwright import Finding, Stage
-from mechwright.contracts.design_rule import Note, Procedure
 from mechwright.contracts.finding import at_stage
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import all_of, by_design, in_turn
 from mechwright.mechanics.gearing import body
 from mechwright.mechanics.gearing.tooth_rules import BACKLASH, FILLET, MESH, chosen_note

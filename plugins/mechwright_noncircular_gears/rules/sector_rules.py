@@ -6,7 +6,8 @@ from collections.abc import Callable
 import numpy as np
 
 from mechwright import Array, Finding
-from mechwright.contracts.design_rule import DesignRule, Failure, Note
+from mechwright.contracts.design_rule import DesignRule, Failure
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import in_turn
 from mechwright.mechanics.gearing import Rolling, SectorTeeth
 from mechwright.tolerances import exceeds

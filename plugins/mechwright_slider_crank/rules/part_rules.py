@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from mechwright import GeometryError, Severity
-from mechwright.contracts.design_rule import DesignRule, Failure, Procedure, no_figures
+from mechwright.contracts.design_rule import DesignRule, Failure, no_figures
 from mechwright.contracts.design_table import by_row
 from mechwright.contracts.finding import Change, Finding, Stage
+from mechwright.contracts.procedure import Procedure
 from mechwright.contracts.rule_list import all_of, in_turn
 from mechwright.mechanics.strength.judging import SLOWEST
 from mechwright_slider_crank.kinematics.mechanism import Mechanism

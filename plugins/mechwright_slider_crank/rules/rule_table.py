@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from mechwright import Severity, Stage
-from mechwright.contracts.design_rule import Note
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import Rules, all_of, in_turn
 from mechwright.mechanics.strength.judging import RowStressRule, Stress, Way
 from mechwright.mechanics.strength.turning_pair import (

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from mechwright import Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Note
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Note
 from mechwright.mechanics.gearing.involute import MOST_SHIFT
 from mechwright_spur_gears.gear_table import CARRIER_WALL, GearTable
 from mechwright_spur_gears.rules.ring_rules import freed

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from mechwright import Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Note
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import with_columns
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Note
 from mechwright_spur_gears.gear_table import GearTable
 from mechwright_spur_gears.rules.ring_rules import freed
 

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from mechwright import Array, Finding, Severity, Stage
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import items
 from mechwright.contracts.finding import Change
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import all_of
 from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_RIM, LEAST_TIP, mesh_findings
 from mechwright.mechanics.gearing.involute import (

@@ -12,10 +12,13 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from mechwright.arrays import Array
+from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Change, Finding, Stage, errors
 from mechwright.contracts.mounting import MountingError
 from mechwright.contracts.parameters import Parameters, kept
+from mechwright.contracts.procedure import Procedure
+from mechwright.contracts.rule_list import Rules, all_of
 from mechwright.errors import MechwrightError, PluginFaultError
 from mechwright.mechanics.chain.assembly import assembly_of
 from mechwright.mechanics.chain.indexing import index_figures, moves_of
@@ -85,15 +88,18 @@ Judge = Callable[[Family[Any], Parameters], Sequence[Finding]]
 
 
 @kept
-def findings(params: ChainParams, families: Families) -> tuple[Finding, ...]:
-    """All of it."""
-    return _findings(params, families, lambda family, own: family.check(own))
+def rules_of(families: Families) -> Rules[DesignTable[ChainParams]]:
+    """The rules of a chain of these families: quickly by what each finds fast, else by all that it finds.
 
-
-@kept
-def judged(params: ChainParams, families: Families) -> tuple[Finding, ...]:
-    """The same by what the families find fast."""
-    return _findings(params, families, lambda family, own: family.judge(own))
+    They list no codes: a chain has those of its stages, and no study asks for them.
+    """
+    fast = Procedure[DesignTable[ChainParams]](
+        (), lambda m: _findings(m.params, families, lambda family, own: family.judge(own)), quickly=True
+    )
+    whole = Procedure[DesignTable[ChainParams]](
+        (), lambda m: _findings(m.params, families, lambda family, own: family.check(own)), slow=True
+    )
+    return all_of(fast, whole)
 
 
 def _findings(params: ChainParams, families: Families, judge: Judge) -> tuple[Finding, ...]:

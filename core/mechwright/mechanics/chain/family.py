@@ -1,7 +1,7 @@
 """A chain as a family: whatever is asked of a mechanism is asked of its stages and put together."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from mechwright.contracts.family import Family
 from mechwright.contracts.finding import Finding
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.mounting import Mounting
     from mechwright.contracts.part import Part
+    from mechwright.contracts.rule_list import Rules
     from mechwright.contracts.synthesis import Progress, Synthesis
 
 
@@ -38,17 +39,11 @@ class Chain(Family[ChainParams]):
         """Of these families; ``base`` is the chain of a requirement's own stages."""
         self.families, self.base = families, base
 
-    def check(self, params: ChainParams) -> Sequence[Finding]:
+    def rules(self) -> "Rules[Any]":
         """What each stage's family finds under the loads of the chain, and how the stages go together."""
-        from mechwright.mechanics.chain.checks import findings
+        from mechwright.mechanics.chain.checks import rules_of
 
-        return findings(params, self.families)
-
-    def judge(self, params: ChainParams) -> Sequence[Finding]:
-        """The same as far as the families find it fast."""
-        from mechwright.mechanics.chain.checks import judged
-
-        return judged(params, self.families)
+        return rules_of(self.families)
 
     def solve(self, params: ChainParams, samples: int) -> "Motion":
         """As many turns of the input as bring all stages back."""

@@ -14,11 +14,12 @@ import numpy as np
 from pydantic import ValidationError
 
 from mechwright.arrays import Array
+from mechwright.contracts.design_table import DesignTable
 from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.motion import Scalar
 from mechwright.contracts.synthesis import Candidate, Progress, Rejected, Synthesis
 from mechwright.errors import MechwrightError, PluginFaultError
-from mechwright.mechanics.chain.checks import judged
+from mechwright.mechanics.chain.checks import rules_of
 from mechwright.mechanics.chain.indexing import index_figures
 from mechwright.mechanics.chain.links import links_of
 from mechwright.mechanics.chain.motion import motion_of, rate_figures
@@ -98,7 +99,8 @@ class Search:
             if missed == 0:
                 self.rejected.because("chain.not-the-least", f"its {self.figure} is not the least")
             return found
-        faults = errors(judged(params, self.families), Stage.PARTS)
+        findings = rules_of(self.families).findings(DesignTable(params), quick=True)
+        faults = errors(findings, Stage.PARTS)
         if faults:
             self.rejected.because(faults[0].code, faults[0].message)
             return Merit(_REFUSED + len(faults) + missed, found.value)

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from mechwright.contracts.design_rule import DesignRule, Failure, Note, Procedure
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.finding import Finding, Severity, Stage, at_stage
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import Rules, all_of, in_turn
 from mechwright.errors import GeometryError
 from mechwright.mechanics.gearing.checks import (

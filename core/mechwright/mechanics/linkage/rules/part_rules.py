@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 from typing import Any
 
-from mechwright.contracts.design_rule import DesignRule, Note, Procedure
+from mechwright.contracts.design_rule import DesignRule
 from mechwright.contracts.finding import Finding, Stage
+from mechwright.contracts.procedure import Note, Procedure
 from mechwright.contracts.rule_list import Rules, all_of, in_turn
 from mechwright.errors import GeometryError
 from mechwright.mechanics.linkage.bushings import LEAST_WALL

@@ -13,9 +13,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mechwright.contracts.design_rule import DesignRule, Failure, Note
+from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.finding import Change, Severity
 from mechwright.contracts.materials import material
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import Rules, all_of
 from mechwright.mechanics.linkage import BUSHING_MATERIAL, PIN_MATERIAL
 from mechwright.mechanics.linkage.kinematics.forces import period_forces
