@@ -13,6 +13,7 @@ from mechwright import DesignRule, DesignTable, Figure, Note, Parameters, Proced
 from mechwright.contracts.design_table import by_row, column, plain, rows_of, with_columns
 from mechwright.contracts.evaluation import Batch
 from mechwright.contracts.finding import Finding, Severity
+from mechwright.contracts.guard import UnsoundError
 from mechwright.contracts.rule_list import by_design
 from mechwright.contracts.standing import Standing
 from mechwright.errors import PluginFaultError
@@ -258,6 +259,21 @@ def test_a_procedure_is_asked_of_each_row_or_once_for_all():
     assert Procedure(("p",), inspect, common=True).forbids(some, Stage.PARTS).tolist() == [True] * 3
     assert len(seen) == 1
     assert Procedure(("p",), inspect, slow=True).forbids(some, Stage.PARTS) is None
+
+
+def test_a_procedure_of_several_codes_forbids_each_row_with_its_own():
+    def inspect(t):
+        yield Finding.warning("third", "a", "odd")
+        if t.params.a < 1:
+            yield Finding.error("second" if t.params.a < 0 else "first", "a", "bad", stage=Stage.PARTS)
+
+    some, codes = table(a=[-1, 0, 1, -2]), ("first", "second", "third")
+    each = Procedure(codes, inspect)
+    assert allowed(in_turn(each), some) == ["second", "first", "", "second"]
+    assert allowed(in_turn(each), some, Stage.MOTION) == [""] * 4
+    assert allowed(in_turn(Procedure(codes, inspect, common=True)), some) == ["second"] * 4
+    with pytest.raises(UnsoundError, match="gives 3; findings are wanted"):
+        in_turn(Procedure(codes, lambda _: 3)).findings(some)
 
 
 class TestLists:

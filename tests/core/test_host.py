@@ -193,31 +193,10 @@ def test_a_plugin_that_loads_without_an_end(plugin, monkeypatch, source, where):
         ("return [Cam]", "raise ValueError('no')", "mechwright_register: ValueError: no"),
         ("return [Cam]", "raise SystemExit(3)", "mechwright_register: SystemExit: 3"),
         ("return [Cam]", "raise GeneratorExit", "mechwright_register: GeneratorExit"),
-        (
-            'name = "cam"',
-            'name = "cam"; api = 0',
-            f"Cam was written for hook API 0; this is {HOOK_API}: {MOVING} says how to move",
-        ),
+        ('name = "cam"', 'name = "cam"; api = 0', f"for hook API 0; this is {HOOK_API}: {MOVING} says how"),
         ('name = "cam"', 'name = "cam"; api = 99', f"Cam was written for hook API 99; this is {HOOK_API}"),
         ('name = "cam"', 'name = "cam"; api = 1.0', f"Cam was written for hook API 1.0; this is {HOOK_API}"),
-        (
-            'name = "cam"',
-            'name = "cam"; api = None',
-            f"Cam was written for hook API None; this is {HOOK_API}",
-        ),
-        *(
-            (
-                "def parts(self",
-                f"def {name}(self, *more): return []\n    def parts(self",
-                f"Cam overrides {name}, which follows from rules since hook API 3; {MOVING} says how to move",
-            )
-            for name in ("check", "judge", "evaluate")
-        ),
-        (
-            "Params = Parameters",
-            "Params = Parameters\n    check = judge = 7",
-            "Cam overrides check, which follows from rules since hook API 3",
-        ),
+        ('name = "cam"', 'name = "cam"; api = None', f"for hook API None; this is {HOOK_API}"),
         ('name = "cam"', "name = 7", "Cam has no name"),
         ('name = "cam"', 'name = "../cam"', "name '../cam' is not of lower-case letters"),
         ('name = "cam"', 'name = "Cam"', "name 'Cam' is not of lower-case letters"),
@@ -230,11 +209,7 @@ def test_a_plugin_that_loads_without_an_end(plugin, monkeypatch, source, where):
         ),
         ("Params = Parameters", "", "Cam has no Params"),
         ("def parts(self", "def bits(self", "Cam(): TypeError: Can't instantiate abstract class Cam"),
-        (
-            "def solve(self",
-            "def __init__(self): 1 / 0\n    def solve(self",
-            "Cam(): ZeroDivisionError",
-        ),
+        ("def solve(self", "def __init__(self): 1 / 0\n    def solve(self", "Cam(): ZeroDivisionError"),
         ("def solve(self", "def __init__(self): exit()\n    def solve(self", "Cam(): SystemExit"),
         (
             "def solve(self",

@@ -2,6 +2,7 @@
 
 import sys
 from importlib.metadata import EntryPoint
+from pathlib import Path
 
 import pytest
 
@@ -67,3 +68,34 @@ def test_the_next_version_refuses_them(found, version):
 def test_the_command_line_warns(found, capsys):
     warn_broken(found(f"{HOOK_API_SINCE}.0"))
     assert capsys.readouterr().err.startswith(f"mechwright: warning: {SAID}, and {NEXT} refuses ")
+
+
+FAMILY = """
+from mechwright import Family, Parameters, hookimpl
+
+class Cam(Family[Parameters]):
+    name, title, summary, Params = "cam", "Cam", "A cam.", Parameters
+    {own}
+    def solve(self, params, samples): raise NotImplementedError
+    def parts(self, params): return []
+
+@hookimpl
+def mechwright_register():
+    return [Cam]
+"""
+
+
+@pytest.mark.parametrize(
+    ("own", "name"),
+    [
+        ("def check(self, params): return []", "check"),
+        ("def judge(self, params): return []", "judge"),
+        ("def evaluate(self, batch, columns, stage=None): return None", "evaluate"),
+        ("check = judge = 7", "check"),
+    ],
+)
+def test_a_family_that_overrides_what_follows_from_its_rules_is_refused_by_name(found, tmp_path, own, name):
+    (tmp_path / "older_contracts.py").write_text(FAMILY.format(own=own), encoding="utf-8")
+    said = f"Cam overrides {name}, which is derived since hook API 3; {MOVING} says how to move"
+    assert [one.reason for one in found(f"{HOOK_API_SINCE}.0").broken] == [said]
+    assert (Path(__file__).parents[2] / MOVING).is_file()

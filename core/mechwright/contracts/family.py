@@ -2,12 +2,11 @@
 
 from abc import abstractmethod
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from inspect import unwrap
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, final
 
 from mechwright.contracts.finding import Finding, Stage
 from mechwright.contracts.parameters import Parameters
-from mechwright.contracts.plugin import MOVING, Plugin
+from mechwright.contracts.plugin import Plugin
 from mechwright.errors import DesignError
 
 if TYPE_CHECKING:
@@ -74,14 +73,6 @@ class Family(Plugin, Generic[P]):
     """Designs of a table that are evaluated at once."""
     sampled: ClassVar[int] = 64
     """Designs of it whose channels are evaluated at once."""
-
-    @classmethod
-    def fault(cls) -> str:
-        """Say which method it overrides that follows from its rules; see :meth:`Plugin.fault`."""
-        own = (name for name in sorted(cls.derived) if unwrap(getattr(cls, name)) is not vars(Family)[name])
-        if (name := next(own, None)) is None:
-            return super().fault()
-        return f"overrides {name}, which follows from rules since hook API 3; {MOVING} says how to move"
 
     def rules(self) -> "Rules[Any]":
         """What an engineer objects to, in order: see :mod:`mechwright.contracts.design_rule`."""

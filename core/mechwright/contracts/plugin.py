@@ -75,7 +75,11 @@ class Plugin(ABC):
     @classmethod
     def fault(cls) -> str:
         """What else keeps a class from being used, in words that follow its name; nothing if it is sound."""
-        old = [name for name in _EARLIER if name in vars(contract_of(cls) or cls)]
+        contract = contract_of(cls) or cls
+        for name in sorted(contract.derived):
+            if inspect.unwrap(getattr(cls, name)) is not vars(contract)[name]:
+                return f"overrides {name}, which is derived since hook API 3; {MOVING} says how to move"
+        old = [name for name in _EARLIER if name in vars(contract)]
         return f"its contract has {old[0]}; annotations of its methods say what they give" if old else ""
 
 

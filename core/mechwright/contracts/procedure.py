@@ -64,7 +64,7 @@ class Procedure(Generic[D]):
             wrong[place] = self._stops(table.row(place), stage)
         return wrong
 
-    def told(self, table: D, wrong: Bools, stage: Stage) -> Iterator[tuple[str, Bools]]:
+    def forbidding(self, table: D, wrong: Bools, stage: Stage) -> Iterator[tuple[str, Bools]]:
         """Give each code with which it forbids designs (n,), and which of them."""
         if len(self.codes) == 1 or self.certain:
             yield self.codes[0], wrong

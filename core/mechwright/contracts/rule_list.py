@@ -159,8 +159,8 @@ class Rules(Generic[D]):
                 places, table, wrong = places[sound], table.rows(sound), wrong[sound]
             if wrong is None or not wrong.any():
                 continue
-            told = rule.told(table, wrong, stage) if isinstance(rule, Procedure) else [(rule.codes[0], wrong)]
-            for code, which in told:
+            first = [(rule.codes[0], wrong)]
+            for code, which in rule.forbidding(table, wrong, stage) if isinstance(rule, Procedure) else first:
                 forbid(code, places[which])
             left = np.flatnonzero(~wrong)
             places, table = places[left], table.rows(left)
