@@ -268,8 +268,7 @@ def test_a_procedure_of_several_codes_forbids_each_row_with_its_own():
             yield Finding.error("second" if t.params.a < 0 else "first", "a", "bad", stage=Stage.PARTS)
 
     some, codes = table(a=[-1, 0, 1, -2]), ("first", "second", "third")
-    each = Procedure(codes, inspect)
-    assert allowed(in_turn(each), some) == ["second", "first", "", "second"]
+    assert allowed(in_turn(each := Procedure(codes, inspect)), some) == ["second", "first", "", "second"]
     assert allowed(in_turn(each), some, Stage.MOTION) == [""] * 4
     assert allowed(in_turn(Procedure(codes, inspect, common=True)), some) == ["second"] * 4
     with pytest.raises(UnsoundError, match="gives 3; findings are wanted"):
