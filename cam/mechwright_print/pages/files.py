@@ -41,26 +41,30 @@ class PrintFiles(Page):
 
     def files(self, build: Build) -> dict[str, str | bytes]:
         """Name to content; raises GeometryError where a mesh cannot be made."""
-        from mechwright_cad.exporters.mesh import stl_of
-        from mechwright_print.as_made import AsPrinted
         from mechwright_print.job.print_job import PrintJob
-        from mechwright_print.pages.bill import bill_csv, bill_lines
-        from mechwright_print.pages.sheet import sheet_html
-        from mechwright_print.rules.inspection import findings_of
 
         job = build.made(PrintJob) if _wanted(build, build.wanted) else None
-        if job is None or not job.parts:
-            return {}
-        found = build.made(findings_of)
-        lines = bill_lines(job)
-        plates = {f"plate-{number}.3mf": plate_file(job, number) for number in range(1, len(job.beds) + 1)}
-        meshes = {name + MESH: stl_of(name, mesh.mesh) for name, mesh in job.meshes.items()}
-        return {
-            **plates,
-            **meshes,
-            SHEET: sheet_html(job, found, lines, build.made(AsPrinted)),
-            BILL: bill_csv(lines),
-        }
+        return _files(build, job) if job is not None and job.parts else {}
+
+
+def _files(build: Build, job: "PrintJob") -> dict[str, str | bytes]:
+    """The files of a job with parts; imports the CAD kernel."""
+    from mechwright_cad.exporters.mesh import stl_of
+    from mechwright_print.as_made import AsPrinted
+    from mechwright_print.pages.bill import bill_csv, bill_lines
+    from mechwright_print.pages.sheet import sheet_html
+    from mechwright_print.rules.inspection import findings_of
+
+    found = build.made(findings_of)
+    lines = bill_lines(job)
+    plates = {f"plate-{number}.3mf": plate_file(job, number) for number in range(1, len(job.beds) + 1)}
+    meshes = {name + MESH: stl_of(name, mesh.mesh) for name, mesh in job.meshes.items()}
+    return {
+        **plates,
+        **meshes,
+        SHEET: sheet_html(job, found, lines, build.made(AsPrinted)),
+        BILL: bill_csv(lines),
+    }
 
 
 def _wanted(build: Build, wanted: Wanted) -> bool:

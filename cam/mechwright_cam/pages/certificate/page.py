@@ -1,19 +1,17 @@
 """The page of the certificates."""
 
 import json
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mechwright.designs.files import digest_of
 from mechwright.output.folder import distinct_files
 from mechwright.pipeline import Build, FileName, Page, Wanted
-from mechwright.scripting.provenance import facts
 from mechwright_cad.exporters import DxfExporter
-from mechwright_cam.machining import Machined, Machining
-from mechwright_cam.pages.certificate.content import certificate
-from mechwright_cam.pages.file_names import machined, named
 from mechwright_cam.pages.registered import COMMANDS, DOING, drawings, setup_sheets
-from mechwright_cam.pages.setup_sheet import SHEET
 from mechwright_cam.program.endings import CERTIFICATE
+
+if TYPE_CHECKING:
+    from mechwright_cam.machining import Machined
 
 
 class Certificates(Page):
@@ -25,6 +23,8 @@ class Certificates(Page):
 
     def names(self, build: Build, wanted: Wanted) -> list[FileName]:  # noqa: ARG002
         """One for each job."""
+        from mechwright_cam.pages.file_names import machined, named
+
         machining = machined(build)
         if machining is None:
             return []
@@ -34,13 +34,20 @@ class Certificates(Page):
 
     def files(self, build: Build) -> dict[str, str]:
         """JSON by file."""
+        from mechwright_cam.machining import Machining
+
         programs = build.made(Machining).proven_programs
         return distinct_files(
             (item.program.name + CERTIFICATE, sealed(_content(item, build))) for item in programs
         )
 
 
-def _content(item: Machined, build: Build) -> dict[str, Any]:
+def _content(item: "Machined", build: Build) -> dict[str, Any]:
+    from mechwright.scripting.provenance import facts
+    from mechwright_cam.machining import Machining
+    from mechwright_cam.pages.certificate.content import certificate
+    from mechwright_cam.pages.setup_sheet import SHEET
+
     job, control = item.job, build.made(Machining).control
     drawing, sheet = job.part.name + DxfExporter.suffix, item.program.name + SHEET
     drawn = build.made_as_wanted(drawings).get(drawing)
