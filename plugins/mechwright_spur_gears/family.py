@@ -48,7 +48,7 @@ class SpurGears(Family[SpurGearParams]):
         """One turn of the driver at constant speed, or a rack there and back."""
         from mechwright_spur_gears.kinematics.motion import motion_of
 
-        refuse(self.check(params), Stage.MOTION)
+        refuse(self.judge(params), Stage.MOTION)
         return motion_of(self.table(params), samples)
 
     def stretches(self, params: SpurGearParams, samples: int) -> "Iterator[Motion]":
@@ -56,7 +56,7 @@ class SpurGears(Family[SpurGearParams]):
         from mechwright.contracts.stretch import in_stretches
         from mechwright_spur_gears.kinematics.motion import motion_of
 
-        refuse(self.check(params), Stage.MOTION)
+        refuse(self.judge(params), Stage.MOTION)
         return in_stretches(partial(motion_of, self.table(params)), samples)
 
     def parts(self, params: SpurGearParams) -> "Sequence[Part]":

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from mechwright.mechanics.gearing import contact
 from mechwright.mechanics.gearing.contact import depths, turns_to_edges
 
 
@@ -47,3 +48,19 @@ def test_the_side_of_a_corner_is_that_of_the_steeper_edge():
     found = depths(points, zero, corners, np.roll(corners, -1, axis=0), zero[:3])
     np.testing.assert_allclose(found, [-0.1, -0.1, -0.1, -0.1, 0.1 * math.sin(math.radians(15))], atol=1e-12)
     assert np.isneginf(depths(points, zero + 1, corners, np.roll(corners, -1, axis=0), zero[:3])).all()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_many_points_are_compared_with_edges_near_them_alone_and_bits_are_the_same(seed, monkeypatch):
+    """Nearest corners are shared by two edges; points lie on edges, in corners and far away."""
+    random = np.random.default_rng(seed)
+    count = int(random.integers(3, 60))
+    angles = np.sort(random.uniform(0, math.tau, count))
+    corners = np.column_stack((np.cos(angles), np.sin(angles))) * random.uniform(2, 5, count)[:, None]
+    ends = np.roll(corners, -1, axis=0)
+    points = np.concatenate((random.uniform(-6, 6, (300, 2)), corners, (corners + ends) / 2, 1.1 * corners))
+    group, edges = np.zeros(len(points), np.int64), np.zeros(count, np.int64)
+    all_with_all = contact.depths(points, group, corners, ends, edges)
+    monkeypatch.setattr(contact, "_FEW_PAIRS", 0)
+    monkeypatch.setattr(contact, "_CHUNK", 64)
+    assert contact.depths(points, group, corners, ends, edges).tobytes() == all_with_all.tobytes()

@@ -231,7 +231,8 @@ def test_a_key_with_round_ends_fills_a_closed_seat_and_bears_a_width_less():
 
 
 @pytest.mark.parametrize(
-    ("width", "depth", "length", "over"), [(6, 0.1, 28, 0.2), (8, 0.2, 32, 0.3), (8, 0.2, 90, 0.5)]
+    ("width", "depth", "length", "over"),
+    [(6, 0.1, 28, 0.2), (8, 0.2, 32, 0.3), (32, 0.2, 90, 0.5), (36, 0.3, 90, 0.5), (58.2, 0.3, 90, 0.5)],
 )
 def test_seats_of_keys_have_tolerances_of_depth_and_length(width, depth, length, over):
     assert depth_tolerance(width) == depth

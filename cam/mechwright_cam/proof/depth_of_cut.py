@@ -157,10 +157,9 @@ def _stays(scene: Scene, tool: Tool, loads: Loads, window: int, limit: float) ->
     if loads.section[window] > limit + loads.depth[window] * wide or cell > wide / 2:
         return True
     first, last = int(loads.first[window - 1]), int(loads.last[window])
-    steps = np.arange(first, last + 1)
-    least, most = scene.paths.extent(steps)
-    away = LASTING * tool.diameter
-    low, high = least.min(axis=0) - away, most.max(axis=0) + away
+    ends = np.column_stack((loads.x, loads.y))[window - 1 : window + 1]
+    away = (1 + LASTING) * tool.diameter  # the windows begin at most a diameter before these ends
+    low, high = ends.min(axis=0) - away, ends.max(axis=0) + away
     if float(np.ptp([low, high], axis=0).prod()) > MOST_CLOSER * cell**2:
         return True
     found = loads_in(scene.paths, scene.job, (*low.tolist(), *high.tolist()), cell)

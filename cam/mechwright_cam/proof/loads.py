@@ -130,6 +130,9 @@ class Loads:
     """Where the material is taken: -1 on the right of the path, as in climb milling, 1 on the left."""
     down: NDArray[np.bool_]
     """Whether the way is straight down."""
+    x: Array
+    y: Array
+    """Where it ends, mm."""
 
     @cached_property
     def width(self) -> Array:
@@ -239,6 +242,7 @@ def _windows(taken: Taken, paths: Paths, stuff: Material) -> Loads:
         return most
 
     step, volume = taken.step[cuts], taken.volume[cuts]
+    ends = np.append(np.flatnonzero(fresh), cuts.size) - 1
     path, all_volume = total(taken.length[cuts]), total(volume)
     order = np.lexsort((volume, window))  # the last of each window takes most
     heaviest = step[order[np.searchsorted(window[order], np.arange(n), side="right") - 1]]
@@ -269,6 +273,7 @@ def _windows(taken: Taken, paths: Paths, stuff: Material) -> Loads:
         angle,
         total(aside) / (all_volume * tool.radius),
         straight,
+        *taken.places[cuts[ends]].T,
     )
     return loads.only(path >= tool.radius)  # of shorter ones nothing is known: the grid is coarser than that
 

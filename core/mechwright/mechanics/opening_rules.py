@@ -123,8 +123,9 @@ def _fit_rules(bore: str, width: str, relief: str, depth: str) -> tuple[Rule | R
         "bore.keyway-series",
         width,
         lambda f: (
-            f"DIN 6885-1 has another key for a bore of {getattr(f.m.params, bore):g} mm: "
-            + ("none" if (one := _fitting_width(f, bore)) is None else f"{one:g} mm")
+            f"DIN 6885-1 has no key for a bore of {getattr(f.m.params, bore):g} mm"
+            if (one := _fitting_width(f, bore)) is None
+            else f"DIN 6885-1 has another key for a bore of {getattr(f.m.params, bore):g} mm: {one:g} mm"
         ),
         value=lambda t: getattr(t.params, width) != _width_for(getattr(t.params, bore)),
         limit=0,

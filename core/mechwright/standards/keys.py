@@ -10,6 +10,7 @@ form B
     mill's half circle, so it is half a width longer than its key.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -38,8 +39,8 @@ Form = Literal["A", "B"]
 _TOLERANCES = ((28.0, 0.2), (80.0, 0.3), (400.0, 0.5))
 """Lengths up to and including, and by how much a key may be shorter and its seat longer, mm; handbook."""
 
-DEPTH = ((6.0, 0.1), (50.0, 0.2))
-"""Widths up to and including, and by how much both seats may be deeper, mm (DIN 6885-1)."""
+DEPTH = ((6.0, 0.1), (32.0, 0.2), (math.inf, 0.3))
+"""Widths up to and including, and by how much seats may be deeper, mm (DIN 6885-1, and beyond)."""
 
 
 def length_tolerance(length: float) -> float:
@@ -54,8 +55,8 @@ def length_tolerance(length: float) -> float:
 def depth_tolerance(width: float) -> float:
     """By how much the seats of a key of this width may be deeper than t1 and t2, mm.
 
-    >>> depth_tolerance(6), depth_tolerance(8)
-    (0.1, 0.2)
+    >>> depth_tolerance(6), depth_tolerance(8), depth_tolerance(36)
+    (0.1, 0.2, 0.3)
     """
     return next(over for most, over in DEPTH if width <= most)
 

@@ -162,4 +162,4 @@ def prove_outlines(m: GearTable, mesh: int, one: Array, two: Array, allowance: f
 
 
 def _proof(pair: InvolutePair, over: RoundPair, outlines: tuple[Array, Array], allowance: float) -> MeshProof:
-    return prove_mesh(over, operating_rack(pair, 0), int(pair.teeth[0]), outlines, allowance)
+    return prove_mesh(over, operating_rack(pair, 0), int(pair.teeth[0]), outlines, allowance, stop=True)

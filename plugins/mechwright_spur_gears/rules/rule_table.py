@@ -7,6 +7,7 @@ from mechwright.mechanics.gearing.rack_plate import RACK_RULES
 from mechwright.mechanics.gearing.ring_plate import RING_RULES
 from mechwright.mechanics.gearing.tooth_rules import CLEARANCE, NO_CLEARANCE
 from mechwright_spur_gears.gear_table import GearTable
+from mechwright_spur_gears.rules.mesh_rules import MESH, OUTLINES
 from mechwright_spur_gears.rules.planet_rules import APART, CARRIER, COAXIAL, EQUAL, PLACES
 from mechwright_spur_gears.rules.rack_rules import FILLET, TRAVEL
 from mechwright_spur_gears.rules.rack_rules import SIZE as RACK_SIZE
@@ -20,7 +21,6 @@ from mechwright_spur_gears.rules.teeth_rules import (
     INTERFERENCE,
     JAMS,
     LAND,
-    MESH,
     OPENING,
     RIM,
     ROUGH,
@@ -72,6 +72,7 @@ RULES = in_turn(
     PROFILE,
     OPENING,
     all_of(RIM, THIN_RIM, of_rings(RING_RULES), of_racks(RACK_RULES), of_planets(CARRIER)),
+    OUTLINES,
     MESH,
     all_of(STRENGTH, of_gears(SIZE, AXIAL), of_racks(RACK_SIZE), of_planets(PLACES)),
     all_of(JAMS, BACKLASH),

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from mechwright import Array, Finding, Severity, Stage
+from mechwright import Array, Severity, Stage
 from mechwright.contracts.design_rule import DesignRule, Failure
 from mechwright.contracts.design_table import items
 from mechwright.contracts.finding import Change
-from mechwright.contracts.procedure import Note, Procedure
+from mechwright.contracts.procedure import Note
 from mechwright.contracts.rule_list import all_of
-from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_RIM, LEAST_TIP, mesh_findings
+from mechwright.mechanics.gearing.checks import FULL_RIM, LEAST_RIM, LEAST_TIP
 from mechwright.mechanics.gearing.involute import (
     MOST_SHIFT,
     InvolutePair,
@@ -25,7 +25,6 @@ from mechwright.mechanics.opening_rules import keyed_rules, size_rules
 from mechwright.tolerances import falls_short
 from mechwright_spur_gears.gear_table import Flank, GearTable
 from mechwright_spur_gears.pair import least_backlash
-from mechwright_spur_gears.parts.teeth import prove
 
 GOOD_CONTACT, LEAST_CONTACT = 1.2, 1.0
 """Contact ratio below which gears run roughly, and below which contact is lost."""
@@ -372,16 +371,7 @@ BACKLASH = BACKLASH.but(
 )
 
 
-def _mesh(m: GearTable) -> Iterator[Finding]:
-    """The mesh proofs of one design."""
-    for mesh, pair in enumerate(m.meshes):
-        yield from mesh_findings(prove(m, mesh), float(pair.backlash), list)
-
-
 OPENING = all_of(*size_rules("bore", "keyway_width", "keyway_relief"), keyed_rules())
-MESH = Procedure[GearTable](
-    ("gear.mesh", "gear.contact"), _mesh, when=lambda m: m.single, slow=True, stage=Stage.PARTS
-)
 
 
 def _size_message(m: GearTable) -> str:

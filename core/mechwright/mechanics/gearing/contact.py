@@ -102,6 +102,12 @@ def _monotone(starts: Array, ends: Array, group: Ints) -> tuple[Array, Array, In
 _PAIRS = 1 << 18
 """Points and edges whose distances are found at a time: a few MB, which stay near the processor."""
 
+_FEW_PAIRS = 1 << 20
+"""Points and edges, multiplied, up to which all are compared with all."""
+
+_CHUNK = 4096
+"""Points whose nearest edges are found at a time."""
+
 _SIGHT = 0.5
 """Pitches: half the least arc on both sides of a point in which it looks for edges."""
 
@@ -187,19 +193,43 @@ def depths(points: Array, group: Ints, starts: Array, ends: Array, edge_group: I
         own, edges = np.flatnonzero(group == number), np.flatnonzero(edge_group == number)
         if not edges.size:
             continue
+        if own.size * edges.size > _FEW_PAIRS:
+            result[own] = _signed_near(points[own], starts[edges], ends[edges])
+            continue
         for some in np.array_split(own, -(-own.size * edges.size // _PAIRS)):
             result[some] = _signed(points[some], starts[edges], ends[edges])
     return result
 
 
+def _signed_near(points: Array, starts: Array, ends: Array) -> Array:
+    """What ``_signed`` gives of many points and edges: only edges that may be the nearest are looked at."""
+    from scipy.spatial import cKDTree
+
+    middles, half = (starts + ends) / 2, float(np.hypot(*(ends - starts).T).max()) / 2
+    tree = cKDTree(middles)
+    # The nearest edge is no farther than the nearest middle, and its middle at most half an edge farther.
+    reach = (tree.query(points)[0] + half) * (1 + TOLERANCES.noise) + TOLERANCES.noise
+    result = np.empty(len(points))
+    for some in np.array_split(np.arange(len(points)), -(-len(points) // _CHUNK)):
+        near = tree.query_ball_point(points[some], reach[some], return_sorted=True)
+        counts = np.array([len(one) for one in near])
+        edges = np.zeros((counts.size, counts.max()), np.intp)
+        there = np.arange(edges.shape[1]) < counts[:, None]
+        edges[there] = np.concatenate(near)
+        edges = np.where(there, edges, edges[:, :1])  # the first again, where a point has fewer
+        result[some] = _signed(points[some], starts[edges], ends[edges])
+    return result
+
+
 def _signed(points: Array, starts: Array, ends: Array) -> Array:
+    """Depths (n,) of points (n, 2) by the nearest of edges (k, 2), or of edges (n, k, 2) of their own."""
     along = ends - starts
-    square = (along * along).sum(axis=1)
+    square = (along * along).sum(axis=-1)
     # Along and across each edge: a point's place in the edge's own frame.
     length = np.sqrt(square)
-    (c, s), (x, y) = along.T / length, points.T[..., None]
-    u = c * x + s * y - (c * starts[:, 0] + s * starts[:, 1])
-    left = c * y - s * x - (c * starts[:, 1] - s * starts[:, 0])
+    (c, s), (x, y) = np.moveaxis(along, -1, 0) / length, points.T[..., None]
+    u = c * x + s * y - (c * starts[..., 0] + s * starts[..., 1])
+    left = c * y - s * x - (c * starts[..., 1] - s * starts[..., 0])
     beyond = np.maximum(np.maximum(u - length, -u), 0.0)
     distance = np.sqrt(beyond * beyond + left * left)
     # Where two edges are equally near, the point is nearest to their corner: it lies on the side of the one

@@ -21,6 +21,7 @@ depth
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -212,10 +213,18 @@ def _overlap(driver: Array, driven: Array, theta1: Array, theta2: Array, pair: P
         one = turned(driver, angle1)
         other = turned(driven, angle2) + np.array([pair.axis, 0.0])
         if pair.side < 0:  # what is not in the ring's opening stands in its teeth
-            areas.append(float(shapely.difference(shapely.Polygon(one), shapely.Polygon(other)).area))
+            areas.append(float(shapely.difference(_valid(one), _valid(other)).area))
             continue
         low, high = np.maximum(one.min(0), other.min(0)), np.minimum(one.max(0), other.max(0))
         if (low < high).all():
-            shapes = (shapely.clip_by_rect(shapely.Polygon(gear), *low, *high) for gear in (one, other))
+            shapes = (shapely.clip_by_rect(_valid(gear), *low, *high) for gear in (one, other))
             areas.append(float(shapely.intersection(*shapes).area))
     return max(areas, default=0.0)
+
+
+def _valid(corners: Array) -> Any:
+    """The polygon of corners (n, 2); where teeth cut themselves, its parts."""
+    import shapely
+
+    found = shapely.Polygon(corners)
+    return found if found.is_valid else shapely.make_valid(found)
