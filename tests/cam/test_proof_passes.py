@@ -11,6 +11,7 @@ from test_proof_parts import paths_of
 from mechwright_cam.proof import depth_of_cut
 from mechwright_cam.proof.depth_of_cut import MOVES_BETWEEN
 from mechwright_cam.proof.rubbing import at_the_edge
+from mechwright_cam.proof.simulation import loads_in
 
 
 def test_places_are_evenly_apart_around_corners() -> None:
@@ -42,6 +43,20 @@ def test_a_window_is_on_end_if_the_one_before_is_large_as_well() -> None:
     assert depth_of_cut._on_end(loads, large).tolist() == [1, 2]  # type: ignore[arg-type]
     assert depth_of_cut._on_end(loads, np.ones(6, dtype=np.bool_)).tolist() == [1, 2, 4, 5]  # type: ignore[arg-type]
     assert depth_of_cut._on_end(loads, np.zeros(6, dtype=np.bool_)).size == 0  # type: ignore[arg-type]
+
+
+def test_a_long_arc_is_looked_at_closely_where_it_takes_much() -> None:
+    """The second turn about a disc of 220 mm takes 0.2 mm of a slot of 6 mm; its box has too many fine cells."""
+    paths = paths_of("G0 X110 Y0\nG1 Z-5 F100\nG3 I-110\nG1 Z-5.2\nG3 I-110")
+    box = (-120.0, -120.0, 120.0, 120.0)
+    job = SimpleNamespace(stock=box, thickness=6.0, gone=(), part=SimpleNamespace(material="aluminium"))
+    scene = SimpleNamespace(paths=paths, job=job, simulation=SimpleNamespace(cell=0.5))
+    every = loads_in(paths, job, box, 0.5)  # type: ignore[arg-type]
+    loads = every.only((every.step == paths.cuts[-1]) & ~every.down)
+    assert np.hypot(loads.x, loads.y) == pytest.approx(110, abs=0.5)
+    for window in range(4, loads.step.size - 1, 25):
+        for limit, stays in ((1.3, False), (1.1, True)):
+            assert depth_of_cut._stays(scene, MILL, loads, window, limit) is stays  # type: ignore[arg-type]
 
 
 def suspects(lines: str, limit: float) -> list[tuple[int, float]]:
