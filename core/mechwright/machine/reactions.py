@@ -113,7 +113,7 @@ def _check(left: Array, target: Array, groups: Sequence[str]) -> None:
     amiss = np.median(np.abs(left).reshape(len(left), len(groups), 6).max(axis=2), axis=0)
     if most > 0 and amiss.max() > UNBALANCED * most:
         raise KinematicsError(
-            f"something besides pins, slides, gears and rollers, such as a cam, moves "
+            f"something besides pins, slides, gears and rollers, such as a flat cam follower's face, moves "
             f"{groups[int(amiss.argmax())]}, so the forces of its joints are not known; "
             "set simulation.friction = 0"
         )
