@@ -75,7 +75,7 @@ def prepare(clone: Path, version: str, tools: Path) -> None:
     run([tools / "bin" / "towncrier", "build", "--yes", "--version", version, "--date", date], clone)
     changelog = clone / "CHANGELOG.md"
     changelog.write_text(joined(changelog.read_text("utf-8")), encoding="utf-8")
-    own = os.pathsep.join(str(clone / one) for one in ("core", "cam", "plugins", "tests"))
+    own = os.pathsep.join(str(clone / one) for one in ("core", "cam", "plugins", "docs"))
     run([sys.executable, "tests/promised_names.py"], clone, PYTHONPATH=own)
     run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_release.py"],
