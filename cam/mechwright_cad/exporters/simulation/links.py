@@ -191,7 +191,7 @@ def _coupled(
     left_out = []
     for name, joint in joints.items():
         if joint.kind == "contact":
-            left_out.append(f"contact {name}: {joint.two} is pushed by {joint.one or 'the ground'}")
+            left_out.append(f"contact {name}: {joint.one or 'the ground'} and {joint.two} push each other")
         if joint.kind != "gear":
             continue
         one, two = known.get(joint.one), known.get(joint.two)
