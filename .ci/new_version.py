@@ -50,18 +50,17 @@ def joined(changelog: str) -> str:
 
 
 def run(command: Sequence[object], folder: Path, **environment: str) -> str:
-    """What a command prints; exits with its last lines where it fails."""
+    """What a command prints, without its warnings; exits with the last lines of both where it fails."""
     done = subprocess.run(
         [str(one) for one in command],
         cwd=folder,
         env={**os.environ, **environment},
         text=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
+        capture_output=True,
         check=False,
     )
     if done.returncode:
-        tail = "\n".join(done.stdout.splitlines()[-20:])
+        tail = "\n".join([*done.stdout.splitlines()[-20:], *done.stderr.splitlines()[-20:]])
         raise SystemExit(f"{tail}\nfailed: {' '.join(map(str, command))}")
     return done.stdout
 
