@@ -70,7 +70,7 @@ class Assembled:
         return f"{self.bodies[match.pin].part.name} in {self.bodies[match.hole].part.name}"
 
     def joints_of(self, match: Match) -> list[str]:
-        """The motion's joints that a pin makes in its hole: it turns there, or both are fixed to each other."""
+        """The joints that a pin makes in its hole: it turns there, or both bodies are of a fixed one."""
         bodies = {self.bodies[k].instance.body for k in (match.pin, match.hole)}
         groups, heads = {self.heads[match.pin], self.heads[match.hole]}, self._groups
         return [
