@@ -14,7 +14,7 @@ from mechwright.errors import DesignError, GeometryError
 from mechwright.machine import MachineSettings
 from mechwright.machine.reactions import carried_of
 from mechwright.pipeline import Build, Wanted
-from mechwright_cad.exporters.simulation import sdf, urdf
+from mechwright_cad.exporters.simulation import mjcf, sdf, urdf
 from mechwright_cad.exporters.simulation.bearings import bearings_of, pins_of
 from mechwright_cad.exporters.simulation.settings import Options, SimulationSettings
 from mechwright_cad.solid_models import Work, exporters_of
@@ -118,6 +118,27 @@ def test_a_ball_bearing_has_its_own_friction():
     for name, value in found.items():
         assert pins[name].rolling
         assert value == pytest.approx(0.0015 * 0.005 * forces[name].mean())  # a bore of 10 mm
+
+
+def test_a_slide_rubs_by_the_force_across_its_way():
+    one = case("slider-crank-quick-return")
+    force = carried_of(one.motion, one.parts, one.machine).forces["guide"]
+    found = bearings_of(one.parts, one.motion, one.options(friction=0.2)).friction["guide"]
+    assert found == pytest.approx(0.2 * force.mean())
+    root = ElementTree.fromstring(one.file(friction=0.2))  # noqa: S314 - our own
+    (slide,) = (joint for joint in root.iter("joint") if joint.get("name") == "guide")
+    assert (slide.get("type"), float(slide.get("frictionloss"))) == ("slide", pytest.approx(found))
+
+
+def test_a_roller_rubs_on_its_wall():
+    design = load(example("geneva-straight"), host())
+    parts, motion = design.parts(), design.solve(361)
+    for friction, kind, said in ((0.0, "1", None), (0.2, "3", "0.2 0 0")):
+        options = Options(SimulationSettings(friction=friction), MachineSettings(speed=60.0))
+        root = ElementTree.fromstring(mjcf.assembly("g", parts, motion, 0, options))  # noqa: S314 - our own
+        touching = [geom for geom in root.iter("geom") if geom.get("group") == "3"]
+        assert touching
+        assert {(geom.get("condim"), geom.get("friction")) for geom in touching} == {(kind, said)}
 
 
 def written(tmp_path, tables, formats=("mjcf",)):
