@@ -22,6 +22,7 @@ LOCKED = {
 }
 WORKFLOWS = sorted((ROOT / ".github").rglob("*.yml"))
 components = runpy.run_path(str(ROOT / ".ci" / "components.py"))
+new_version = runpy.run_path(str(ROOT / ".ci" / "new_version.py"))
 
 
 @pytest.mark.parametrize("wanted", DEPENDENCIES, ids=lambda wanted: wanted.name)
@@ -136,3 +137,29 @@ def test_what_runs_before_a_commit_is_there():
     for hook in hooks:
         for name in re.findall(r"tests/\S+", hook["entry"]):
             assert (ROOT / name).is_file()
+
+
+@pytest.mark.parametrize("path", new_version["PLACES"])
+def test_a_new_version_is_set_where_the_version_is_said(path):
+    text = (ROOT / path).read_text("utf-8")
+    changed = new_version["with_version"](path, text, "123.4.5")
+    assert changed.count("123.4.5") == 1
+    assert changed.replace("123.4.5", mechwright.__version__) == text
+    with pytest.raises(SystemExit, match="says a version 0 times"):
+        new_version["with_version"](path, "", "123.4.5")
+
+
+def test_what_was_unreleased_comes_into_the_first_part_ahead_of_fragments():
+    before = "# Changelog\n\n## 1.2.3 - 2026-01-31\n\n### Added\n\n- A rack.\n\n\n## Unreleased\n\n{}### Gears\n\n- Pairs.\n"
+    after = "# Changelog\n\n## 1.2.3 - 2026-01-31\n\n### Gears\n\n- Pairs.\n\n### Added\n\n- A rack.\n"
+    for first in ("", "The first version, 0.1.0.\n\n"):
+        assert new_version["joined"](before.format(first)) == after
+    assert new_version["joined"](after) == after
+    with pytest.raises(SystemExit, match="run towncrier build"):
+        new_version["joined"]("# Changelog\n\n## Unreleased\n\n### Gears\n")
+
+
+@pytest.mark.parametrize("version", ["1.2", "v1.2.3", "1.2.3rc1"])
+def test_what_is_no_version_is_refused(version):
+    with pytest.raises(SystemExit, match=f"{version}: is no version; write one such as 1.2.3"):
+        new_version["main"]([version])

@@ -17,6 +17,7 @@ from mechwright_cad.exporters import (
     ThreeMfExporter,
     UrdfExporter,
 )
+from mechwright_cad.exporters.simulation.settings import SimulationTable
 from mechwright_cad.form_drawing.page import FormDrawings
 from mechwright_cad.pages import Interference, MotionPage, SolidFiles
 from mechwright_cad.plate_drawing.page import PlateDrawings
@@ -42,6 +43,7 @@ def mechwright_register() -> list[type[Plugin]]:
         BillOfMaterials,
         SoldPlates,
         DrawingTable,
+        SimulationTable,
         PlateDrawings,
         TurnedDrawings,
         FormDrawings,

@@ -78,7 +78,8 @@ class Work:
         if not any(part.instances for part in self.parts):
             return None
         try:
-            return exporter.assembly(self.design.name, self.parts, *self._pose(exporter.samples))
+            configured = exporter.configured(self.design.tables)
+            return configured.assembly(self.design.name, self.parts, *self._pose(configured.samples))
         except MechwrightError as error:
             family = self.design.family.name
             raise GeometryError(

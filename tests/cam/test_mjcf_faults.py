@@ -196,7 +196,7 @@ def test_parts_without_a_place_make_no_mechanism():
     from mechwright_cad.solid_models import Work
 
     alone = Part("alone", disc().outline, 2.0, "steel")
-    design = SimpleNamespace(name="d", family=SimpleNamespace(name="f"))
+    design = SimpleNamespace(name="d", tables={}, family=SimpleNamespace(name="f", moves=False))
     work = Work(design, [MjcfExporter()], motion(SHAFT, "disc"), 0, [alone])
     with pytest.raises(GeometryError, match="mjcf holds whole mechanisms, and no part of this design"):
         work.files()

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import subprocess
 import sys
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -12,7 +13,7 @@ from by_night import in_ci
 
 from mechwright.agent import running
 from mechwright.agent.folder import LARGEST, SHOWN, Folder
-from mechwright.agent.server import READ, WRITE, Tools
+from mechwright.agent.server import NONSENSE, READ, WRITE, Tools
 from mechwright.errors import DesignError, OutputError
 
 ROOT = Path(__file__).parents[2]
@@ -150,6 +151,21 @@ async def _short_session(root):
         assert "Input should be" in await errors(client, "check", design="x.toml", to="moon")
         assert "nknown" in await errors(client, "format_disk")
         assert (await ask(client, "check", design="none.toml"))["code"] == 2
+
+
+def test_lines_that_are_no_messages_are_told_one_by_one(tmp_path):
+    pytest.importorskip("mcp", reason="pip install 'mechwright[mcp]'")
+    done = subprocess.run(
+        [sys.executable, "-m", "mechwright", "mcp", str(tmp_path)],
+        input="hello\n{}\n",
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (0, "")
+    assert done.stderr == 2 * f"mechwright: {NONSENSE}\n"
 
 
 @in_ci

@@ -1,15 +1,18 @@
 """The exporters that are registered. Nothing heavy is imported before one of them writes."""
 
-from typing import TYPE_CHECKING
+from copy import copy
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Self
 
 from mechwright.contracts.exporter import Exporter
 from mechwright_cad.exporters.curve_kinds import Curves
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from mechwright.contracts.motion import Motion
     from mechwright.contracts.part import Part
+    from mechwright_cad.exporters.simulation.settings import Options
 
 
 class StepExporter(Exporter):
@@ -103,58 +106,56 @@ class GlbExporter(Exporter):
         return glb.glb_assembly(name, parts, motion, sample)
 
 
-class MjcfExporter(Exporter):
+class SimulationExporter(Exporter):
+    """The mechanism for a simulator, with gravity, friction and play as ``[simulation]`` has them."""
+
+    samples = 361
+    options: "Options | None" = None
+    """Of a design; None for masses and joints alone."""
+
+    def takes(self, part: "Part") -> bool:  # noqa: ARG002
+        """None by itself."""
+        return False
+
+    def part(self, part: "Part") -> None:
+        """Nothing: a part by itself does not move."""
+
+    def configured(self, tables: "Mapping[str, Any]") -> Self:
+        """With the options of a design; raises DesignError for gravity where nothing says which way is up."""
+        from mechwright_cad.exporters.simulation.settings import Options
+
+        found = copy(self)
+        found.options = Options.of(tables)
+        return found
+
+    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
+        """One body or link per body of the motion, with its parts."""
+        from mechwright_cad.exporters.simulation.settings import PLAIN
+
+        module = import_module(self.modules[0])
+        found: bytes = module.assembly(name, parts, motion, sample, self.options or PLAIN)
+        return found
+
+
+class MjcfExporter(SimulationExporter):
     """The mechanism as MJCF, for simulation with MuJoCo: masses, joints, closed loops, contacts."""
 
     name = "mjcf"
     suffix = ".mjcf.xml"
     modules = ("mechwright_cad.exporters.simulation.mjcf",)
 
-    def takes(self, part: "Part") -> bool:  # noqa: ARG002
-        """None by itself."""
-        return False
 
-    def part(self, part: "Part") -> None:
-        """Nothing: a part by itself does not move."""
-
-    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
-        """One body per body of the motion, with its parts."""
-        from mechwright_cad.exporters.simulation import mjcf
-
-        return mjcf.assembly(name, parts, motion, sample)
-
-
-class UrdfExporter(Exporter):
+class UrdfExporter(SimulationExporter):
     """The mechanism as URDF, for robots: a tree of links, cut at the pins that close loops. It shows STL."""
 
     name = "urdf"
     suffix = ".urdf"
-    samples = 361
     modules = ("mechwright_cad.exporters.simulation.urdf",)
 
-    def takes(self, part: "Part") -> bool:  # noqa: ARG002
-        """None by itself."""
-        return False
 
-    def part(self, part: "Part") -> None:
-        """Nothing: a part by itself does not move."""
-
-    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
-        """One link per body of the motion, with its parts."""
-        from mechwright_cad.exporters.simulation import urdf
-
-        return urdf.assembly(name, parts, motion, sample)
-
-
-class SdfExporter(UrdfExporter):
+class SdfExporter(SimulationExporter):
     """The mechanism as SDF, for Gazebo: links and all joints, those that close loops too. It shows STL."""
 
     name = "sdf"
     suffix = ".sdf"
     modules = ("mechwright_cad.exporters.simulation.sdf",)
-
-    def assembly(self, name: str, parts: "Sequence[Part]", motion: "Motion", sample: int = 0) -> bytes:
-        """One link per body of the motion, with its parts."""
-        from mechwright_cad.exporters.simulation import sdf
-
-        return sdf.assembly(name, parts, motion, sample)

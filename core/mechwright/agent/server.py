@@ -1,5 +1,7 @@
 """The server of the Model Context Protocol: one tool for each command, on standard input and output."""
 
+import logging
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
@@ -193,6 +195,25 @@ def _told(method: Callable[..., Any], error_of: type[Exception]) -> Callable[...
     return told
 
 
+NONSENSE = "the client sent a line that is no message of JSON-RPC, and it is ignored; send one message a line"
+
+
+class _Nonsense(logging.Handler):
+    """A line on standard error for what the library cannot read, and logs for debugging alone."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        if "transport yielded exception" in str(record.msg):
+            sys.stderr.write(f"mechwright: {NONSENSE}\n")
+
+
 def serve(root: Path, version: str) -> None:
-    """Answer on standard input and output until the client ends; raises DesignError without a folder."""
-    server_of(Folder(root), version).run("stdio")
+    """Answer on standard input and output until the client ends; raises DesignError without a folder.
+
+    A line of the client that is no message is told on standard error.
+    """
+    server = server_of(Folder(root), version)
+    reader = logging.getLogger("mcp.shared.jsonrpc_dispatcher")
+    reader.setLevel(logging.DEBUG)
+    reader.propagate = False
+    reader.addHandler(_Nonsense())
+    server.run("stdio")

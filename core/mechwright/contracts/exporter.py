@@ -1,7 +1,8 @@
 """The contract of an exporter: what writes parts in one file format."""
 
 from abc import abstractmethod
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from mechwright.contracts.plugin import Plugin
 
@@ -36,6 +37,13 @@ class Exporter(Plugin):
     def takes_assemblies(self) -> bool:
         """Whether :meth:`assembly` gives a file; by default where a class has one of its own."""
         return type(self).assembly is not Exporter.assembly
+
+    def configured(self, tables: Mapping[str, Any]) -> Self:  # noqa: ARG002 - used by formats with settings
+        """The exporter with what a design's tables say of its format; itself, the default, without settings.
+
+        Raises DesignError for settings that do not go together.
+        """
+        return self
 
     @abstractmethod
     def part(self, part: "Part") -> bytes | None:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechwright.arrays import Array
+from mechwright.contracts.joint import Vector
 from mechwright.contracts.load import Load
 from mechwright.contracts.mass import body_moments
 from mechwright.contracts.motion import Motion
@@ -33,8 +34,6 @@ GRAVITY = 9.80665
 
 _OWN = "[machine]"
 """Name of the load of that table."""
-
-_UP = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,13 +201,10 @@ def drive_of(motion: Motion, parts: Sequence[Part], settings: MachineSettings) -
         A part that moves has no mass.
     """
     course = course_of(motion, settings.speed)
-    loads = dict(motion.loads)
-    if settings.load > 0:
-        loads[_OWN] = Load(output_of(motion, settings.output), resisting=settings.load)
-    elif settings.output:
-        output_of(motion, settings.output)
-    masses = _masses(motion, parts)
-    inertia, reflected, weight = _of_masses(course, masses, _replaced(motion, masses), settings.up)
+    loads = all_loads(motion, settings)
+    masses = moving_masses(motion, parts)
+    moving = with_own_inertia(motion, masses)
+    inertia, reflected, weight = _of_masses(course, masses, moving, settings.upwards)
     given, resisting = _of_loads(course, loads)
     of_load = _of_loads(course, {key: load for key, load in loads.items() if key == _OWN})[1]
     conservative = inertia + weight + given
@@ -218,6 +214,16 @@ def drive_of(motion: Motion, parts: Sequence[Part], settings: MachineSettings) -
         if settings.direction in {name, "both"}
     )
     return Drive(course, inertia, weight, given, resisting, reflected, runs, of_load)
+
+
+def all_loads(motion: Motion, settings: MachineSettings) -> dict[str, Load]:
+    """The loads of a motion and the one of the settings; raises DesignError for an output that is none."""
+    loads = dict(motion.loads)
+    if settings.load > 0:
+        loads[_OWN] = Load(output_of(motion, settings.output), resisting=settings.load)
+    elif settings.output:
+        output_of(motion, settings.output)
+    return loads
 
 
 def _run(course: Course, conservative: Array, resisting: Array, name: str) -> Run:
@@ -253,7 +259,7 @@ _SMOOTH = 0.05
 """Share of a peak by which its neighbours differ at the most, where it is no jump."""
 
 
-def _masses(motion: Motion, parts: Sequence[Part]) -> dict[str, Array]:
+def moving_masses(motion: Motion, parts: Sequence[Part]) -> dict[str, Array]:
     """Moments (4, 4) of every body that has parts and moves, kg and mm."""
     placed: dict[str, list[tuple[Part, float]]] = {}
     for part in parts:
@@ -264,7 +270,7 @@ def _masses(motion: Motion, parts: Sequence[Part]) -> dict[str, Array]:
     return {body: body_moments(here) for body, here in placed.items()}
 
 
-def _replaced(motion: Motion, masses: Mapping[str, Array]) -> dict[str, Array]:
+def with_own_inertia(motion: Motion, masses: Mapping[str, Array]) -> dict[str, Array]:
     """The moments with those of loads that bring their inertia along."""
     found = dict(masses)
     for load in motion.loads.values():
@@ -277,11 +283,11 @@ def _replaced(motion: Motion, masses: Mapping[str, Array]) -> dict[str, Array]:
 
 
 def _of_masses(
-    course: Course, weighing: Mapping[str, Array], moving: Mapping[str, Array], up: str
+    course: Course, weighing: Mapping[str, Array], moving: Mapping[str, Array], up: Vector
 ) -> tuple[Array, Array, Array]:
     """Torque of inertia, reflected inertia, and torque of weights, (n,)."""
     torque, reflected, weight = (np.zeros(course.angle.size) for _ in range(3))
-    direction = np.zeros(3) if up == "none" else np.array(_UP[up[-1]]) * (-1.0 if up[0] == "-" else 1.0)
+    direction = np.array(up)
     for body, moments in moving.items():
         along = course.along(body)
         carried = along @ moments

@@ -5,6 +5,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import AfterValidator, Field
 
+from mechwright.contracts.joint import Vector
 from mechwright.errors import DesignError
 from mechwright.machine.frame.keys import FrameKeys
 from mechwright.standards.motors import motor
@@ -66,6 +67,14 @@ class MachineSettings(FrameKeys):
     margin: Annotated[float, Field(ge=1, le=10), Unit("")] = Field(
         1.5, description="Factor on all torques before a motor is judged, for friction and starting."
     )
+
+    @property
+    def upwards(self) -> Vector:
+        """Unit vector that points up, in the coordinates of the poses; 0, 0, 0 where weights are left out."""
+        if self.up == "none":
+            return 0.0, 0.0, 0.0
+        x, y, z = ((-1.0 if self.up[0] == "-" else 1.0) if self.up[-1] == axis else 0.0 for axis in "xyz")
+        return x, y, z
 
     @property
     def variation(self) -> float:

@@ -12,6 +12,9 @@ from mechwright.standards.table import table
 STANDARD = "ISO 15"
 """Of the sizes of ball bearings."""
 
+FRICTION = 0.0015
+"""Coefficient of friction at the bore of such a bearing under usual load: SKF, Rolling bearings."""
+
 _BORES = ((18.0, 0.008), (30.0, 0.010))
 _WIDTHS = ((50.0, 0.12), (120.0, 0.15))
 _OUTSIDES = ((18.0, 0.008), (30.0, 0.009), (50.0, 0.011), (80.0, 0.013))

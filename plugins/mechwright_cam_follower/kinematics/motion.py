@@ -140,9 +140,12 @@ def _poses(m: Mechanism, contacts: tuple[Contact, ...], rates: Rates) -> dict[st
 
 def _joints(m: Mechanism) -> dict[str, Joint]:
     found = {"camshaft": Joint("revolute", GROUND, CAM, drives=True), "guide": _guide(m)}
-    if not m.flat:
+    if m.flat:
+        found["face-on-cam"] = Joint("contact", CAM, FOLLOWER)
+    else:
         for body, place in zip(ROLLERS, studs_of(m), strict=False):
             found[body] = Joint("fixed", FOLLOWER, body, (place.real, place.imag, 0.0))
+            found[f"{body}-on-cam"] = Joint("contact", body, CAM, radius=m.roller)
     if m.railed:
         found |= {body: Joint("fixed", GROUND, body) for body in RAILS}
     spring = spring_place(m)

@@ -49,6 +49,11 @@ def relative(values: Sequence[float]) -> str:
     return " ".join(f"{x:.15g}" for x in values)
 
 
+def remark(parent: ET.Element, sentence: str) -> None:
+    """A comment in ``parent``."""
+    parent.append(ET.Comment(f" {sentence.replace('--', '- -')} "))
+
+
 def corners(points: Array) -> str:
     """Corners (n, 3) of a mesh, mm, in metres, which MuJoCo keeps in single precision."""
     return " ".join(f"{x + 0.0:.9g}" for x in np.round(points * METRES, 10).ravel().tolist())

@@ -15,7 +15,9 @@ from mechwright.contracts.joint import GROUND, Joint
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
 from mechwright.errors import KinematicsError
+from mechwright_cad.exporters.simulation.bearings import bearings_of
 from mechwright_cad.exporters.simulation.elements import METRES, without_noise
+from mechwright_cad.exporters.simulation.settings import Options
 from mechwright_cad.exporters.simulation.tree import Branch, check_masses, frames_of, placed_of, tree_of
 from mechwright_cad.solids.inertia import Inertia, body_moments
 
@@ -84,6 +86,8 @@ class Linked:
         Body to the body whose angle it follows in a gear of a constant ratio, with that ratio.
     left_out
         Sentences about what the file cannot say.
+    friction
+        Name of a joint to its torque, N m, or force, N, of friction.
     """
 
     ground: tuple[tuple[Part, Instance, Array], ...]
@@ -91,13 +95,14 @@ class Linked:
     loops: Mapping[str, tuple[Joint, End, End]]
     mimics: Mapping[str, tuple[str, float]]
     left_out: tuple[str, ...]
+    friction: Mapping[str, float]
 
     def joint_of(self, body: str) -> str:
         """The name of the joint by which a body hangs on its parent."""
         return next(link.branch.name for link in self.links if link.name == body)
 
 
-def linked(parts: Sequence[Part], motion: Motion, sample: int) -> Linked:
+def linked(parts: Sequence[Part], motion: Motion, sample: int, options: Options) -> Linked:
     """A mechanism in its pose at one sample of the motion.
 
     Raises
@@ -106,8 +111,11 @@ def linked(parts: Sequence[Part], motion: Motion, sample: int) -> Linked:
         The motion does not say how its bodies are joined, or in a way that no tree of joints holds.
     GeometryError
         A body that moves has no mass, an instance belongs to no body, or there is no such sample.
+    DesignError
+        The options ask for friction, and the motion does not say how fast it runs.
     """
     placed = placed_of(parts, motion, sample)
+    bearings = bearings_of(parts, motion, options)
     joints, empty = _with_parts(motion.joints, placed)
     tree = tree_of(joints, [body for body in motion.poses if body not in empty])
     bodies = frames_of(motion, sample)
@@ -152,7 +160,10 @@ def linked(parts: Sequence[Part], motion: Motion, sample: int) -> Linked:
     ground = tuple((part, at, _height(at)) for part, at in placed[GROUND])
     mimics, left_out = _coupled(joints, tree.branches)
     none = (f"body {body}: no part is an instance of it" for body in empty)
-    return Linked(ground, tuple(links), loops, mimics, (*none, *left_out))
+    play = (f"play of {name}: {2 / METRES * one:.3f} mm" for name, one in bearings.play.items())
+    rubbing = [f"friction of contact {name}" for name, one in joints.items() if one.kind == "contact"]
+    more = (*bearings.left_out, *play, *(rubbing if bearings.coefficient else ()))
+    return Linked(ground, tuple(links), loops, mimics, (*none, *left_out, *more), bearings.friction)
 
 
 def _with_parts(
@@ -180,7 +191,7 @@ def _coupled(
     left_out = []
     for name, joint in joints.items():
         if joint.kind == "contact":
-            left_out.append(f"contact {name}: {joint.two} is pushed by {joint.one or 'the ground'}")
+            left_out.append(f"contact {name}: {joint.one or 'the ground'} and {joint.two} push each other")
         if joint.kind != "gear":
             continue
         one, two = known.get(joint.one), known.get(joint.two)

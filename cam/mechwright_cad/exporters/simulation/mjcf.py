@@ -10,16 +10,19 @@ from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Part
 from mechwright_cad.exporters.mesh import part_mesh
+from mechwright_cad.exporters.simulation.bearings import Bearings, bearings_of
 from mechwright_cad.exporters.simulation.elements import (
     METRES,
     STEP,
     corners,
     element,
     relative,
+    remark,
     without_noise,
 )
 from mechwright_cad.exporters.simulation.mjcf_constraints import check_gears, write_constraints
 from mechwright_cad.exporters.simulation.mjcf_contacts import Placed, write_contacts
+from mechwright_cad.exporters.simulation.settings import PLAIN, Options
 from mechwright_cad.exporters.simulation.tree import Branch, Tree, check_masses, frames_of, placed_of, tree_of
 from mechwright_cad.solids.inertia import Inertia, body_moments
 
@@ -27,7 +30,9 @@ TOUCH = 1e-8
 """How exactly distances of surfaces that touch are found, m; MuJoCo's own 1e-6 is a small clearance."""
 
 
-def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
+def assembly(
+    name: str, parts: Sequence[Part], motion: Motion, sample: int = 0, options: Options = PLAIN
+) -> bytes:
     """A mechanism in its pose at one sample of the motion.
 
     Raises
@@ -36,33 +41,38 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
         The motion does not say how its bodies are joined, or in a way that MJCF has no words for.
     GeometryError
         A body that moves has no mass, an instance belongs to no body, or there is no such sample.
+    DesignError
+        The options ask for friction, and the motion does not say how fast it runs.
     """
     placed = placed_of(parts, motion, sample)
     tree = tree_of(motion.joints, motion.poses)
     check_gears(motion.joints, tree)
     frames = frames_of(motion, sample)
     touching = [joint for joint in motion.joints.values() if joint.kind == "contact"]
-    root, assets = _head(name, contact=bool(touching))
+    bearings = bearings_of(parts, motion, options)
+    root, assets = _head(name, options, contact=bool(touching))
     for part in parts:
         if part.instances:
             mesh = part_mesh(part)
             faces = " ".join(map(str, mesh.triangles.ravel().tolist()))
             element(assets, "mesh", name=part.name, inertia="shell", vertex=corners(mesh.points), face=faces)
-    bodies = _bodies(root, tree, placed, frames)
-    write_contacts(assets, bodies, placed, touching)
-    write_constraints(root, bodies, tree, motion.joints, frames)
+    bodies = _bodies(root, tree, placed, frames, bearings)
+    write_contacts(assets, bodies, placed, touching, bearings.coefficient)
+    write_constraints(root, bodies, tree, motion.joints, frames, bearings)
+    for sentence in bearings.left_out:
+        remark(root, f"left out: {sentence}")
     ET.indent(root)
     written: bytes = ET.tostring(root, encoding="utf-8")
     return written + b"\n"
 
 
-def _head(name: str, *, contact: bool) -> tuple[ET.Element, ET.Element]:
+def _head(name: str, options: Options, *, contact: bool) -> tuple[ET.Element, ET.Element]:
     """The root with its settings, and where meshes go."""
     root = ET.Element("mujoco", model=name)
     as_given = dict.fromkeys(("inertiafromgeom", "balanceinertia"), "false")
     element(root, "compiler", angle="radian", boundmass="0", boundinertia="0", **as_given)
     option = element(
-        root, "option", gravity="0 0 0", timestep=STEP, integrator="implicitfast", ccd_tolerance=TOUCH
+        root, "option", gravity=options.gravity, timestep=STEP, integrator="implicitfast", ccd_tolerance=TOUCH
     )
     if not contact:
         element(option, "flag", contact="disable")
@@ -72,7 +82,7 @@ def _head(name: str, *, contact: bool) -> tuple[ET.Element, ET.Element]:
 
 
 def _bodies(
-    root: ET.Element, tree: Tree, placed: Placed, frames: Mapping[str, Array]
+    root: ET.Element, tree: Tree, placed: Placed, frames: Mapping[str, Array], bearings: Bearings
 ) -> dict[str, ET.Element]:
     """Write all bodies with their masses, joints and looks."""
     moments = {body: body_moments((part, at.z) for part, at in here) for body, here in placed.items()}
@@ -87,7 +97,7 @@ def _bodies(
         if moments[body][3, 3] > 0:
             _inertial(made, Inertia.of(moments[body]))
         if branch.joint.kind != "fixed":
-            _joint(made, branch, frames)
+            _joint(made, branch, frames, bearings)
         for part, at in placed[body]:
             rgba, place = [*part.colour_of(at), 1.0], [0.0, 0.0, at.z * METRES]
             looks = {"type": "mesh", "mesh": part.name, "group": "2", "contype": "0", "conaffinity": "0"}
@@ -102,11 +112,18 @@ def _inertial(body: ET.Element, inertia: Inertia) -> None:
     element(body, "inertial", pos=inertia.centre * METRES, **values)
 
 
-def _joint(body: ET.Element, branch: Branch, frames: Mapping[str, Array]) -> None:
-    """Write a hinge or a slide in the coordinates of its body; an axis counts for the joint's body two."""
-    joint = branch.joint
+def _joint(body: ET.Element, branch: Branch, frames: Mapping[str, Array], bearings: Bearings) -> None:
+    """Write a hinge or a slide in the coordinates of its body; an axis counts for the joint's body two.
+
+    A hinge with play stands on two slides across its axis.
+    """
+    joint, name = branch.joint, branch.name
     place = np.linalg.inv(frames[branch.body]) @ frames[joint.one]
     axis = place[:3, :3] @ joint.axis * (-1 if branch.turned else 1)
     at = (place @ [*joint.point, 1.0])[:3] * METRES
     kind = "hinge" if joint.kind == "revolute" else "slide"
-    element(body, "joint", name=branch.name, type=kind, pos=at, axis=axis)
+    if name in bearings.play:
+        for letter, way in zip("xy", np.linalg.svd(axis[None])[2][1:], strict=True):
+            element(body, "joint", name=f"{name}.{letter}", type="slide", pos=at, axis=way)
+    friction = {"frictionloss": bearings.friction[name]} if name in bearings.friction else {}
+    element(body, "joint", name=name, type=kind, pos=at, axis=axis, **friction)

@@ -3,16 +3,13 @@
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
-import numpy as np
-
 from mechwright.arrays import Array
 from mechwright.contracts.joint import Joint
 from mechwright.errors import KinematicsError
+from mechwright_cad.exporters.simulation.bearings import Bearings
 from mechwright_cad.exporters.simulation.elements import METRES, SOLREF, element
+from mechwright_cad.exporters.simulation.mjcf_pins import LEVER, sites, write_pins
 from mechwright_cad.exporters.simulation.tree import Tree
-
-LEVER = 10.0
-"""How far from a pin's place a second point keeps its axis, mm: the length of a usual bearing."""
 
 
 def check_gears(joints: Mapping[str, Joint], tree: Tree) -> None:
@@ -48,21 +45,21 @@ def write_constraints(
     tree: Tree,
     joints: Mapping[str, Joint],
     frames: Mapping[str, Array],
+    bearings: Bearings,
 ) -> None:
     """Write sites and equalities of loops and gears, and motors of the joints that the input moves.
 
     Two points of its axis hold a pin. In a plane or on a sphere one would do: what is said twice is harmless.
     """
     equality = element(root, "equality")
+    write_pins(root, bodies, tree, frames, bearings)
     for name, joint in tree.loops.items():
+        if name in bearings.play:
+            continue
         for number, way in enumerate((0.0, LEVER), start=1):
-            point = np.array(joint.point) + way * np.array(joint.axis)
-            sites = []
-            for body in (joint.one, joint.two):
-                at = np.linalg.inv(frames[body]) @ frames[joint.one] @ [*point, 1.0]
-                sites.append(f"{name}.{number}.{body or 'ground'}")
-                element(bodies[body], "site", name=sites[-1], group="4", pos=at[:3] * METRES)
-            pair = {"site1": sites[0], "site2": sites[1]}
+            pair = dict(
+                zip(("site1", "site2"), sites(f"{name}.{number}", joint, way, bodies, frames), strict=True)
+            )
             element(equality, "connect", name=f"{name}.{number}", solref=SOLREF, **pair)
     hinges = {branch.body: branch.name for branch in tree.branches}
     kinds = {branch.body: branch.joint.kind for branch in tree.branches}

@@ -10,7 +10,7 @@ from mechwright.contracts.joint import Joint
 from mechwright.contracts.part import Instance, Part
 from mechwright.errors import GeometryError
 from mechwright_cad.exporters.mesh import part_mesh
-from mechwright_cad.exporters.simulation.elements import METRES, SOLREF, corners, element
+from mechwright_cad.exporters.simulation.elements import METRES, SOLREF, corners, element, text
 from mechwright_cad.solids.convex import prisms
 
 Placed = Mapping[str, Sequence[tuple[Part, Instance]]]
@@ -18,9 +18,15 @@ Placed = Mapping[str, Sequence[tuple[Part, Instance]]]
 
 
 def write_contacts(
-    assets: ET.Element, bodies: Mapping[str, ET.Element], placed: Placed, touching: Sequence[Joint]
+    assets: ET.Element,
+    bodies: Mapping[str, ET.Element],
+    placed: Placed,
+    touching: Sequence[Joint],
+    friction: float,
 ) -> None:
     """Write what touches: each body that pushes has a bit of its own, to which the other answers.
+
+    With a coefficient of friction surfaces that slide on each other rub; none of them rolls or twists hard.
 
     Raises
     ------
@@ -36,8 +42,10 @@ def write_contacts(
             "contype": str(bits.get(body, 0)),
             "conaffinity": str(sum(answers)),
             "group": "3",
-            "condim": "1",
+            "condim": "3" if friction else "1",
         }
+        if friction:
+            how["friction"] = text([friction, 0.0, 0.0])
         if body in pins:
             ends = _pin_ends(pins[body], placed[body]) * METRES
             size = pins[body].radius * METRES

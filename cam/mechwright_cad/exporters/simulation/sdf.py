@@ -12,9 +12,10 @@ from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
-from mechwright_cad.exporters.simulation.elements import METRES, element, relative, text
+from mechwright_cad.exporters.simulation.elements import METRES, element, relative, remark, text
 from mechwright_cad.exporters.simulation.links import MOMENTS, Link, linked
 from mechwright_cad.exporters.simulation.rotation import roll_pitch_yaw
+from mechwright_cad.exporters.simulation.settings import PLAIN, Options
 from mechwright_cad.exporters.simulation.urdf import NO_LIMIT, link_names
 
 WORLD = "world"
@@ -24,14 +25,23 @@ STANDS = "stand"
 """The link that has the parts of the ground."""
 
 
-def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
-    """A mechanism in its pose at one sample of the motion; raises as :func:`linked` does."""
-    found = linked(parts, motion, sample)
+def assembly(
+    name: str, parts: Sequence[Part], motion: Motion, sample: int = 0, options: Options = PLAIN
+) -> bytes:
+    """A mechanism in its pose at one sample of the motion; raises as :func:`linked` does.
+
+    With gravity, which SDF has in a world alone, the model stands in one.
+    """
+    found = linked(parts, motion, sample, options)
     names = {**link_names(found), GROUND: WORLD}
     root = ET.Element("sdf", version="1.11")
-    model = element(root, "model", name=name)
+    around = root
+    if any(options.gravity):
+        around = element(root, "world", name=name)
+        element(around, "gravity").text = text(options.gravity)
+    model = element(around, "model", name=name)
     for sentence in found.left_out:
-        model.append(ET.Comment(f" left out: {sentence.replace('--', '- -')} "))
+        remark(model, f"left out: {sentence}")
     if found.ground:
         stand = element(model, "link", name=_free(STANDS, list(names.values())))
         _looks(stand, found.ground)
@@ -48,7 +58,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
         kind = link.branch.joint.kind
         joint = _joint_of(model, link.branch.name, kind, names[link.parent], names[link.name])
         if kind != "fixed":
-            _axis(joint, link.axis, link)
+            _axis(joint, link.axis, link, found.friction.get(link.branch.name))
             if link.name in found.mimics:
                 other, ratio = found.mimics[link.name]
                 mimic = element(joint[-1], "mimic", joint=found.joint_of(other), axis="axis")
@@ -59,7 +69,7 @@ def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) 
         pose = element(joint, "pose")
         pose.text = text([*two.place[:3, 3], 0.0, 0.0, 0.0])
         turned = (frames[two.body][:3, :3]).T @ frames[one.body][:3, :3]
-        _axis(joint, turned @ np.array(said.axis), None)
+        _axis(joint, turned @ np.array(said.axis), None, found.friction.get(loop))
     ET.indent(root)
     written: bytes = ET.tostring(root, encoding="utf-8", xml_declaration=True)
     return written + b"\n"
@@ -78,9 +88,11 @@ def _joint_of(model: ET.Element, name: str, kind: str, parent: str, child: str) 
     return joint
 
 
-def _axis(joint: ET.Element, axis: Array, link: Link | None) -> None:
+def _axis(joint: ET.Element, axis: Array, link: Link | None, friction: float | None) -> None:
     made = element(joint, "axis")
     element(made, "xyz").text = text(axis)
+    if friction is not None:
+        element(element(made, "dynamics"), "friction").text = text(friction)
     limit = element(made, "limit")
     limits = None if link is None else link.limits
     if limits is not None:

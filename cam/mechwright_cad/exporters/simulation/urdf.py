@@ -14,9 +14,10 @@ from mechwright.arrays import Array
 from mechwright.contracts.joint import GROUND
 from mechwright.contracts.motion import Motion
 from mechwright.contracts.part import Instance, Part
-from mechwright_cad.exporters.simulation.elements import METRES, element, relative
+from mechwright_cad.exporters.simulation.elements import METRES, element, relative, remark, text
 from mechwright_cad.exporters.simulation.links import MOMENTS, Link, Linked, linked
 from mechwright_cad.exporters.simulation.rotation import roll_pitch_yaw
+from mechwright_cad.exporters.simulation.settings import PLAIN, Options
 
 WORLD = "world"
 """The link that stands still."""
@@ -27,13 +28,15 @@ NO_LIMIT = 1e4
 KINDS = {"fixed": "fixed", "prismatic": "prismatic"}
 
 
-def assembly(name: str, parts: Sequence[Part], motion: Motion, sample: int = 0) -> bytes:
+def assembly(
+    name: str, parts: Sequence[Part], motion: Motion, sample: int = 0, options: Options = PLAIN
+) -> bytes:
     """A mechanism in its pose at one sample of the motion; raises as :func:`linked` does."""
-    found = linked(parts, motion, sample)
+    found = linked(parts, motion, sample, options)
     names = link_names(found)
     root = ET.Element("robot", name=name)
-    for sentence in remarks(found):
-        root.append(ET.Comment(f" {sentence.replace('--', '- -')} "))
+    for sentence in remarks(found, options):
+        remark(root, sentence)
     _looks(element(root, "link", name=names[GROUND]), found.ground)
     for link in found.links:
         made = element(root, "link", name=names[link.name])
@@ -63,13 +66,16 @@ def link_names(found: Linked) -> Mapping[str, str]:
     return {GROUND: world, **{body: body for body in bodies}}
 
 
-def remarks(found: Linked) -> list[str]:
+def remarks(found: Linked, options: Options) -> list[str]:
     """What the file says of loops, and of what it leaves out."""
     loops = [
         f"loop joint {name} of {joint.one or WORLD} and {joint.two}: cut, see the links {name}-on-..."
         for name, (joint, *_) in found.loops.items()
     ]
-    return [*loops, *(f"left out: {one}" for one in found.left_out)]
+    more = [f"friction of {name}: its loop is cut" for name in found.loops if name in found.friction]
+    if any(options.gravity):
+        more.append(f"gravity of {text(options.gravity)} m/s^2: it is the simulator's")
+    return [*loops, *(f"left out: {one}" for one in (*found.left_out, *more))]
 
 
 def _inertial(link: ET.Element, mass: float, centre: Array, tensor: Array) -> None:
@@ -103,6 +109,8 @@ def _joint(root: ET.Element, link: Link, names: Mapping[str, str], found: Linked
     if link.limits is not None:
         limit |= {"lower": link.limits[0], "upper": link.limits[1]}
     element(joint, "limit", **limit)
+    if link.branch.name in found.friction:
+        element(joint, "dynamics", damping=0.0, friction=found.friction[link.branch.name])
     if link.name in found.mimics:
         other, ratio = found.mimics[link.name]
         element(joint, "mimic", joint=found.joint_of(other), multiplier=ratio, offset=0.0)

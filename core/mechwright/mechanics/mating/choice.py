@@ -39,7 +39,7 @@ class Assembled:
 
     def __init__(self, bodies: Sequence[Placed], motion: Motion) -> None:
         self.bodies, self.motion = tuple(bodies), motion
-        groups = rigid(motion)
+        groups = self._groups = rigid(motion)
         self.heads = [groups[body.instance.body] for body in self.bodies]
         self.rounds = [rounds_of(body, 0) for body in self.bodies]
         self._axes = [
@@ -68,6 +68,17 @@ class Assembled:
         A shaft ``shaft`` in a plate ``crank`` is ``"shaft in crank"``.
         """
         return f"{self.bodies[match.pin].part.name} in {self.bodies[match.hole].part.name}"
+
+    def joints_of(self, match: Match) -> list[str]:
+        """The joints that a pin makes in its hole: it turns there, or both bodies are of a fixed one."""
+        bodies = {self.bodies[k].instance.body for k in (match.pin, match.hole)}
+        groups, heads = {self.heads[match.pin], self.heads[match.hole]}, self._groups
+        return [
+            name
+            for name, joint in self.motion.joints.items()
+            if (joint.kind == "revolute" and {heads[joint.one], heads[joint.two]} == groups)
+            or (joint.kind == "fixed" and {joint.one, joint.two} == bodies)
+        ]
 
     def turns_on(self, k: int, one: Round, on: str | None = None) -> bool:
         """Whether a face has the axis of a joint about which its group turns, on a group or on any."""

@@ -11,8 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mechwright.arrays import Array
-from mechwright.contracts.bodies import placed, rigid
-from mechwright.contracts.motion import Motion
+from mechwright.contracts.bodies import placed
 from mechwright.mechanics.mating.choice import Assembled
 from mechwright.mechanics.mating.rounds import Match
 from mechwright.pipeline.build import Build
@@ -81,22 +80,9 @@ def pairings(build: Build, readings: Sequence[Reading]) -> list[Pairing]:
                 shaft, hole, sizes[shaft], sizes[hole], moves=not whole.same_group(match)
             )
         known = found[shaft, hole]
-        joints = dict.fromkeys((*known.joints, *_joints(whole, motion, match)))
+        joints = dict.fromkeys((*known.joints, *whole.joints_of(match)))
         found[shaft, hole] = replace(known, joints=tuple(joints))
     return list(found.values())
-
-
-def _joints(whole: Assembled, motion: Motion, match: Match) -> list[str]:
-    """The joint that a pin makes in its hole: it turns there, or both are bodies of a fixed one."""
-    heads = rigid(motion)
-    bodies = {whole.bodies[k].instance.body for k in (match.pin, match.hole)}
-    groups = {heads[body] for body in bodies}
-    return [
-        name
-        for name, joint in motion.joints.items()
-        if (joint.kind == "revolute" and {heads[joint.one], heads[joint.two]} == groups)
-        or (joint.kind == "fixed" and {joint.one, joint.two} == bodies)
-    ]
 
 
 def _faces(whole: Assembled, match: Match) -> tuple[tuple[str, str], tuple[str, str]]:
