@@ -107,7 +107,7 @@ FINE, FINEST = 1 / 40, 0.02
 """Cells with which a section is measured closely: in radii of the tool, and at least so many mm wide."""
 MOST_CLOSER = 4_000_000
 """So many of them at most."""
-MOST_DOUBTS = 100
+MOST_DOUBTS = 400
 """So many places are measured closely; a program with more of them is refused by the wide cells."""
 SECTIONS = 2.0
 """A mill may take so many times the section of a full slot of one step_down: deep cuts are narrow, shallow
@@ -149,12 +149,12 @@ def _on_end(loads: Loads, large: NDArray[np.bool_]) -> Ints:
 def _stays(scene: Scene, tool: Tool, loads: Loads, window: int, limit: float) -> bool:
     """Whether such a section, mm², is found on cells as fine as the tool needs as well.
 
-    A wide cell counts as a whole or not at all. Where what is measured is beyond all that cells can make of
-    it, nobody looks closer.
+    A wide cell counts as a whole or not at all, on both sides of the cut. Where what is measured is beyond
+    all that cells can make of it, nobody looks closer.
     """
     cell = max(FINEST, FINE * tool.radius)
     wide = scene.simulation.cell
-    if loads.section[window] > limit + loads.depth[window] * wide or cell > wide / 2:
+    if loads.section[window] > limit + 2 * loads.depth[window] * wide or cell > wide / 2:
         return True
     first, last = int(loads.first[window - 1]), int(loads.last[window])
     ends = np.column_stack((loads.x, loads.y))[window - 1 : window + 1]
