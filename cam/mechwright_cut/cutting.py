@@ -10,7 +10,8 @@ from mechwright.errors import DesignError, GeometryError, ProofError
 from mechwright.pipeline import Build
 from mechwright.pipeline.process import plates_by
 from mechwright_cut.cuts import Contour, WireContour
-from mechwright_cut.jobs import CutJob, CutPart, cut_part, nested
+from mechwright_cut.jobs import CutJob, CutPart, cut_part
+from mechwright_cut.nest import nested
 from mechwright_cut.paths.order import contours
 from mechwright_cut.paths.wire import wire_contours
 from mechwright_cut.programs.grbl_laser import grbl_laser
@@ -18,6 +19,7 @@ from mechwright_cut.programs.iso_wire import iso_wire
 from mechwright_cut.programs.linuxcnc_beam import linuxcnc_beam
 from mechwright_cut.proof.judge import CutProof, Question, TargetPiece, prove
 from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
+from mechwright_cut.rows import SHORTEST
 from mechwright_cut.rules.part_rules import loses, part_findings, refused
 from mechwright_cut.service.services import services
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
@@ -79,6 +81,7 @@ def question(job: CutJob, control: str) -> Question:
         joint_width=settings.joint_width,
         taper=job.process.taper,
         refused="" if why is None or lifted else why.why,
+        common=bool(job.common),
     )
 
 
@@ -181,6 +184,16 @@ class Cutting:
         for _, process, kerf, cut in self.cut_parts:
             yield from part_findings(cut, process, kerf.width, self.settings)
         yield from self._planned[1]
+        jobs = [job for job, _ in self._planned[0]]
+        if self.settings.common_lines and jobs and not any(job.common for job in jobs):
+            yield Finding.warning(
+                "cut.common-lines",
+                "cut.common_lines",
+                f"no two parts of a sheet have straight edges of one length, at least {SHORTEST:g} mm; none is "
+                "shared",
+                remedy="set cut.common_lines = false",
+                stage=Stage.MACHINING,
+            )
 
     @cached_property
     def _planned(self) -> tuple[list[tuple[CutJob, Ways]], list[Finding]]:
@@ -260,6 +273,22 @@ def _error(code: str, key: str, message: str, remedy: str) -> Finding:
     return Finding.error(code, key, message, remedy=remedy, stage=Stage.MACHINING)
 
 
+def _no_common_lines(settings: CutSettings, name: str, process: Process) -> Iterator[Finding]:
+    """Why parts cannot share edges by a process, or with other keys."""
+    remedy = "set cut.common_lines = false"
+    if name == SERVICE:
+        said = "common lines, and a service lays the parts on its sheets: each drawing has one part"
+        yield _error("cut.common-lines", "cut.common_lines", said, remedy)
+    elif process.no_common:
+        said = f"common lines, and not by {process.words}: {process.no_common}"
+        yield _error("cut.common-lines", "cut.common_lines", said, remedy)
+    elif settings.joints and process.joints:
+        said = (
+            f"common lines, and {settings.joints} micro-joints: at a common line no part hangs in the sheet"
+        )
+        yield _error("cut.common-lines", "cut.common_lines", said, f"{remedy}, or cut.joints = 0")
+
+
 def _no_kerf(process: Process, part: Part) -> Finding:
     return _error(
         "cut.kerf",
@@ -274,6 +303,8 @@ def _wrong_settings(settings: CutSettings, name: str, process: Process) -> Itera
     if settings.joints and not process.joints and name != SERVICE:
         said = f"{settings.joints} micro-joints, and {process.words} has none"
         yield _error("cut.joints", "cut.joints", said, "set cut.joints = 0")
+    if settings.common_lines:
+        yield from _no_common_lines(settings, name, process)
     laser = process.name.endswith("laser")
     if settings.control == "grbl-laser" and not laser:
         said = f"grbl-laser is for lasers, and not for {process.words}"

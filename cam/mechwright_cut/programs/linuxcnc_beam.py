@@ -27,6 +27,6 @@ def linuxcnc_beam(job: CutJob, contours: Sequence[Contour]) -> str:
             for stroke in contour.strokes:
                 first, *rest = moves(stroke)
                 lines += [f"G0 {at(stroke.start)}", on]
-                lines += [f"G4 P{number(settings.pierce)}"] if settings.pierce and not mark else []
+                lines += [f"G4 P{number(settings.pierce)}"] if settings.pierce and contour.pierces else []
                 lines += [f"{first} F{number(feed)}", *rest, off]
     return "\n".join([*lines, "G0 X0 Y0", "M2"]) + "\n"

@@ -65,6 +65,9 @@ class CutSettings(Parameters):
     overcut: Millimetres = Field(0.5, ge=0, le=10, description="Way past the start of each contour.")
     joints: int = Field(0, ge=0, le=12, description="Micro-joints that hold each part in the sheet.")
     joint_width: Millimetres = Field(0.4, gt=0, le=5, description="Width of the material of a micro-joint.")
+    common_lines: bool = Field(
+        False, description="Parts that share a straight edge lie one kerf apart, and it is cut once."
+    )
     engrave_power: Ratio = Field(20.0, gt=0, le=100, description="Power that marks the surface.")
     engrave_feed: MillimetresPerMin = Field(1500.0, gt=0, le=60000, description="Feed of engraving.")
     fits: Literal["ream", "bush", "refuse"] = Field(

@@ -50,6 +50,8 @@ class Process:
         Where the figures are from.
     thickest
         Material or group to its greatest thickness.
+    no_common
+        Why one cut does not serve two parts; empty where it does.
     """
 
     name: str
@@ -70,6 +72,7 @@ class Process:
     control: str
     source: str
     thickest: Mapping[str, float]
+    no_common: str = ""
 
     def least_hole(self, thickness: float) -> float:
         """The least hole in a sheet, mm."""
