@@ -189,7 +189,7 @@ class Cutting:
             yield Finding.warning(
                 "cut.common-lines",
                 "cut.common_lines",
-                f"no two parts of a sheet have straight edges of one length, at least {SHORTEST:g} mm; none is "
+                f"no two parts of a sheet have straight edges of at least {SHORTEST:g} mm outermost; none is "
                 "shared",
                 remedy="set cut.common_lines = false",
                 stage=Stage.MACHINING,

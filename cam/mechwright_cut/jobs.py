@@ -84,11 +84,22 @@ class CutPiece:
 
 @dataclass(frozen=True)
 class CommonLine:
-    """An edge that two pieces share: their numbers, and the ends of the middle of the kerf, mm."""
+    """An edge that two pieces share: their numbers, and how far it is the edge of each, mm.
+
+    Both stretches lie on the middle of the kerf; the line is the longer one, which has the other in it.
+    """
 
     pieces: tuple[int, int]
-    start: Point
-    end: Point
+    stretches: tuple[tuple[Point, Point], tuple[Point, Point]]
+
+    @property
+    def whole(self) -> tuple[Point, Point]:
+        """The ends of the line."""
+        return max(self.stretches, key=lambda ends: round(math.dist(*ends), 6))
+
+    def of(self, piece: int) -> tuple[Point, Point]:
+        """The stretch of one of the two pieces."""
+        return self.stretches[self.pieces.index(piece)]
 
 
 @dataclass(frozen=True)

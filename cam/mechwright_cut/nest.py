@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from mechwright.errors import DesignError
-from mechwright.geometry import Outline
+from mechwright.geometry import Line, Outline
 from mechwright.geometry.packing import on_plate
 from mechwright.geometry.segments import Point
 from mechwright_cut.jobs import CommonLine, CutJob, CutPart, CutPiece, gap_of
@@ -42,15 +42,16 @@ def nested(
     for row, (x, y, turned) in laid:
         x0, y0, _, y1 = row.bounds
         left, low = (-y1, x0) if turned else (x0, y0)
-        before = -1
+        before: tuple[int, tuple[Point, Point]] | None = None
         for member in row.members:
             place = member.place.then(nest.rim + x - left, nest.rim + y - low, turned)
             one, label = items[member.number]
             pieces[member.number] = CutPiece(one, label, place.x, place.y, place.angle)
-            if member.shared is not None:
-                start, end = (_off_wall(place, member.shared, end, kerf.width / 2) for end in (0, 1))
-                lines.append(CommonLine((before, member.number), start, end))
-            before = member.number
+            if before is not None and member.before is not None:
+                stretch = _off_wall(place, member.before, kerf.width / 2)
+                lines.append(CommonLine((before[0], member.number), (before[1], stretch)))
+            if member.behind is not None:
+                before = member.number, _off_wall(place, member.behind, kerf.width / 2)
     first = items[0][0].part
     return CutJob(
         name,
@@ -64,11 +65,12 @@ def nested(
     )
 
 
-def _off_wall(place: Place, side: tuple[Point, Point], end: int, off: float) -> Point:
-    """An end of a side, so far off the part, mm: the part is on the left of its side."""
-    (x0, y0), (x1, y1) = (place.of(point) for point in side)
-    length, (x, y) = math.dist((x0, y0), (x1, y1)), ((x0, y0), (x1, y1))[end]
-    return x + off * (y1 - y0) / length, y - off * (x1 - x0) / length
+def _off_wall(place: Place, side: Line, off: float) -> tuple[Point, Point]:
+    """The ends of a side, so far off the part, mm, which is on its left."""
+    (x0, y0), (x1, y1) = place.of(side.start), place.of(side.end)
+    length = math.dist((x0, y0), (x1, y1))
+    dx, dy = off * (y1 - y0) / length, off * (x0 - x1) / length
+    return (x0 + dx, y0 + dy), (x1 + dx, y1 + dy)
 
 
 class _Nest:

@@ -10,7 +10,7 @@ row
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,8 +20,10 @@ from mechwright_cut.cuts import WORKING
 
 SHORTEST = 5.0
 """A shorter edge is not shared, mm: leads and corners would take what it saves."""
-ALIKE = 1e-4
-"""Lengths of two sides, or places of points behind one, that differ by less are equal, mm."""
+SHARE = 0.5
+"""Of two sides that are shared the shorter one has at least this share of the longer one."""
+BEHIND = 1e-4
+"""Rounding of the places of points behind a side, mm."""
 OPPOSITE = 1e-6
 """Two sides are opposite within this angle, rad: 0.1 µm at a side of 100 mm."""
 
@@ -47,11 +49,12 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A part of a row: its number, where it lies, and the side by which it meets the one before it."""
+    """A part of a row: its number, where it lies, and its sides beside the one before and the next one."""
 
     number: int
     place: Place = Place()
-    shared: tuple[Point, Point] | None = None
+    before: Line | None = None
+    behind: Line | None = None
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,7 @@ def sides(outline: Outline) -> list[Line]:
             continue
         along = np.subtract(segment.end, segment.start) / _length(segment)
         behind = (points - segment.start) @ np.array((-along[1], along[0]))
-        if behind.min() >= -ALIKE:
+        if behind.min() >= -BEHIND:
             found.append(segment)
     return sorted(found, key=lambda side: -round(_length(side), 6))
 
@@ -126,21 +129,26 @@ def _following(
     known: dict[int, list[Line]],
     kerf: float,
 ) -> tuple[list[Member], list[Line]] | None:
-    """The row with one more part, and the sides by which it may go on; None where none has a like side."""
+    """The row with one more part, and the sides by which it may go on; None where none has a like side.
+
+    Of all parts that one follows whose side differs least in length, and the row goes on if it can.
+    """
     for out in exits:
         last = members[-1]
         if len(members) == 1:  # the first part is turned until this side looks along X
             last = Member(last.number, Place(angle=math.pi / 2 - _heading(out)))
+        able: list[tuple[float, bool, int, Line, list[Line]]] = []
         for number in left:
-            able = [
-                (side, [one for one in known[id(outlines[number])] if _opposite(side, one)])
-                for side in known[id(outlines[number])]
-                if abs(_length(side) - _length(out)) <= ALIKE
-            ]
-            if able:
-                side, onward = max(able, key=lambda pair: len(pair[1]) > 0)
-                place = _beside(side, last.place.of(out.start), last.place.of(out.end), kerf)
-                return [*members[:-1], last, Member(number, place, (side.start, side.end))], onward
+            own = known[id(outlines[number])]
+            for side in own:
+                shorter, longer = sorted((_length(side), _length(out)))
+                if shorter >= SHARE * longer:
+                    onward = [one for one in own if _opposite(side, one)]
+                    able.append((round(longer - shorter, 4), not onward, number, side, onward))
+        if able:
+            *_, number, side, onward = min(able, key=lambda one: one[:3])
+            place = _beside(side, last.place.of(out.start), last.place.of(out.end), kerf)
+            return [*members[:-1], replace(last, behind=out), Member(number, place, side)], onward
     return None
 
 

@@ -74,7 +74,7 @@ def test_neighbours_stand_one_kerf_apart(width, height, kerf, count, turned):
         first, second = (shapes[number] for number in one.pieces)
         assert shapely.distance(first, second) == pytest.approx(kerf, abs=2e-4)
         for shape in (first, second):
-            ends = shapely.points([one.start, one.end])
+            ends = shapely.points(one.whole)
             assert shapely.distance(ends, shape) == pytest.approx([kerf / 2] * 2, abs=2e-4)
     for (a, one), (b, two) in ((x, y) for x in enumerate(shapes) for y in enumerate(shapes) if x[0] < y[0]):
         if not any(set(line.pieces) == {a, b} for line in job.common):
@@ -110,11 +110,19 @@ def test_without_the_key_nothing_is_shared():
     assert sheet_of(copies(SQUARE, 3), sheet=ROOMY).common == ()
 
 
-def test_parts_of_one_length_share_an_edge_though_they_differ():
-    other = Part("tab", Outline(Loop.polygon([(0, 0), (20, 0), (10, 9)])), 3, "acrylic")
+@pytest.mark.parametrize(
+    ("length", "shared"), [(20, True), (12, True), (33, True), (9.9, False), (41, False)]
+)
+@pytest.mark.parametrize("control", WRITERS)
+def test_parts_share_an_edge_though_they_differ(length, shared, control):
+    """Up to twice as long; the line is the longer one, and each part begins and ends on it."""
+    other = Part("tab", Outline(rounded_box(length + 2, 6, 1)), 3, "acrylic")
     job = sheet(SQUARE, other)
-    assert [one.pieces for one in job.common] == [(0, 1)]
-    text, asked = beam(job)
+    assert bool(job.common) == shared
+    for one in job.common:
+        assert math.dist(*one.whole) == pytest.approx(max(20, length))
+        assert math.dist(*one.of(1)) == pytest.approx(min(20, length))
+    text, asked = beam(job, control)
     assert prove(text, asked).ok
 
 
@@ -321,7 +329,7 @@ def test_a_cut_that_begins_on_a_flank_is_not_passed():
 def test_the_part_of_a_row_is_cut_in_stretches_that_end_in_the_lines():
     job = sheet(copies(SQUARE, 3))
     middle = [one for one in contours(job) if one.role == "outside" and len(one.strokes) == 2]
-    ends = [point for one in job.common for point in (one.start, one.end)]
+    ends = [point for one in job.common for point in one.whole]
     assert len(middle) == 1, "the one between two others"
     for stroke in middle[0].strokes:
         for point in (stroke.start, stroke.end):

@@ -18,7 +18,7 @@ from mechwright_cut.jobs import PIERCE, CommonLine, CutJob, lead_radius, target
 from mechwright_cut.paths.entries import Waste
 from mechwright_cut.paths.parallels import FIT, beam_ring
 from mechwright_plane.arcfit import fit
-from mechwright_plane.path import Path, polyline
+from mechwright_plane.path import polyline
 
 LEADS = (1.0, 0.6, 1.5, 2.0, 3.0)
 """Shares of the radius of leads by which a common line begins before the parts."""
@@ -36,7 +36,7 @@ def outside_contour(job: CutJob, number: int, lines: Sequence[CommonLine]) -> Co
     name, loop = f"{piece.label} outside", piece.outline.outer
     ring = beam_ring(loop, job.kerf.width, True, name)
     inside = target(piece).centroid
-    ways = [_along(one.start, one.end, (inside.x, inside.y)) for one in lines]
+    ways = [_along(*one.of(number), (inside.x, inside.y)) for one in lines]
     strokes = tuple(fit(points, FIT) for points in _between(ring, ways))
     return Contour(name, "outside", tuple(one for one in strokes if one.cuts), opened=True)
 
@@ -75,16 +75,17 @@ def _common(job: CutJob, one: CommonLine, waste: Waste) -> Contour:
     """The line from the end with more room, on which it is pierced, to past the other one."""
     first, second = (job.pieces[number].label for number in one.pieces)
     name = f"{first} and {second} common line"
-    begins = [_begin(job, end, other, waste) for end, other in ((one.start, one.end), (one.end, one.start))]
+    ends = one.whole
+    begins = [_begin(job, end, other, waste) for end, other in (ends, ends[::-1])]
     able = [(room, k, begin) for k, (room, begin) in enumerate(begins) if begin is not None]
     if not able:
         raise GeometryError(f"{name}: there is no room to pierce before it; {REST}")
     _, k, begin = max(able, key=lambda row: (round(row[0], 3), -row[1]))
-    end, start = (one.end, one.start) if k == 0 else (one.start, one.end)
+    start, end = ends[:: 1 - 2 * k]
     past = _beyond(end, start, job.settings.overcut)
     if not waste.takes(np.array([end, past])):
         past = end
-    return Contour(name, "common", (Path(polyline([begin]).start, polyline([begin, past]).cuts),))
+    return Contour(name, "common", (polyline([begin, past]),))
 
 
 def _begin(job: CutJob, end: Point, other: Point, waste: Waste) -> tuple[float, Point | None]:
