@@ -5,7 +5,7 @@
 A case is a process and a family, such as ``laser/geneva``. Its design is an example with the material and the
 thickness of the process. Changes that the first error proposes are made until none is left, at most ten
 times; the row names the keys. Then programs or drawings are made and proven, and the family judges the
-mechanism with walls as the programs leave them. Solids are not compared. FOLDER keeps the files.
+mechanism with walls as the programs or drawings leave them. Solids are not compared. FOLDER keeps the files.
 """
 
 import argparse
@@ -168,7 +168,9 @@ def _count(row: Row, build: Build) -> None:
     plates, said = build.made(produced_plates), build.made(as_made)
     worst = max((float(abs(part.off).max()) for parts in plates.values() for part in parts), default=0.0)
     judged = f"{len(said.figures)} figures" if said.figures else "not judged"
-    row.walls = f"{judged}, walls within {1000 * worst:.1f} µm" if plates else "not judged"
+    if not build.design.family.moves:
+        judged = "mates with nothing"
+    row.walls = f"{judged}, walls within {1000 * worst:.1f} µm"
 
 
 def main() -> None:

@@ -45,7 +45,7 @@ class Cut(Process):
         return Spread(process.size, process.taper)
 
     def produced(self, part: Part, build: Build) -> Sequence[MadePart]:
-        """The walls of the text, and the taper; nothing of a service."""
+        """The walls of the text, or of the drawing for a service, and the taper."""
         from mechwright_cut.as_cut import plates_as_cut
 
         return build.made(plates_as_cut).get(part.name, ())
