@@ -60,9 +60,12 @@ def _size(bounds: tuple[float, float, float, float]) -> str:
     return f"{x1 - x0:.1f} × {y1 - y0:.1f}"
 
 
-def minutes(item: ProvenCut) -> float:
-    """Time of the beam, min: ways at their feeds, and pierces."""
+def minutes(item: ProvenCut) -> float | None:
+    """Time, min: of a beam by its feeds and pierces, of a wire by the rate of its machine, or else None."""
     settings = item.job.settings
+    if item.suffix == ".iso":
+        walls = item.job.thickness * sum(one.length for one in item.contours)
+        return None if settings.wire_rate is None else walls / settings.wire_rate
     marks = sum(one.length for one in item.contours if one.role == "engrave")
     cuts = sum(one.length for one in item.contours if one.role != "engrave")
     pierces = sum(one.pierces for one in item.contours if isinstance(one, Contour))
@@ -71,11 +74,11 @@ def minutes(item: ProvenCut) -> float:
 
 
 def _sheet(item: ProvenCut) -> dict[str, Any]:
-    job = item.job
+    job, time = item.job, minutes(item)
     return {
         "name": item.name,
         "file": item.name + item.suffix,
-        "minutes": "" if item.suffix == ".iso" else f", {minutes(item):.1f} min",
+        "minutes": "" if time is None else f", {time:.1f} min",
         "process": job.process.words,
         "material": _ordered(job.material),
         "thickness": f"{job.thickness:g}",

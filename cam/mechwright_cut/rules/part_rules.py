@@ -28,7 +28,8 @@ def refused(part: Part, process: Process, settings: CutSettings, *, service: boo
     How thick a ``service`` cuts is on its own list.
     """
     if names := recesses(part):
-        return f"{', '.join(names[:3])} does not go through, and {process.words} cuts through"
+        verb = "does" if len(names) == 1 else "do"
+        return f"{', '.join(names[:3])} {verb} not go through, and {process.words} cuts through"
     why = refusal(process.name, part.material)
     if why is not None and not (why.unless and getattr(settings, why.unless)):
         lifted = f" (cut.{why.unless} = true lifts this)" if why.unless else ""

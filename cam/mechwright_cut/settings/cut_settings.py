@@ -1,12 +1,12 @@
 """The keys of ``[cut]``."""
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.parameters import FIRST, GIVEN, Parameters
-from mechwright.units import Millimetres, MillimetresPerMin, Ratio, Seconds
+from mechwright.units import Millimetres, MillimetresPerMin, Ratio, Seconds, Unit
 from mechwright_cut.settings.figures import Process, ProcessName, processes
 
 LASER, WATERJET, PLASMA, WIRE, SERVICE = NAMES = ("laser", "waterjet", "plasma", "wire", "service")
@@ -84,6 +84,9 @@ class CutSettings(Parameters):
     )
     start_hole: Millimetres = Field(1.0, gt=0, le=10, description="Diameter of start holes for the wire.")
     tab: Millimetres = Field(1.0, gt=0, le=20, description="Bridge that is cut last, by a wire.")
+    wire_rate: Annotated[float, Field(gt=0, le=10000), Unit("mm^2/min")] | None = Field(
+        None, description="Area of walls that your wire runs along in a minute, over all passes: for times."
+    )
     sheet: CutSheet = Field(CutSheet(), description="The sheet.")
 
     @model_validator(mode="after")

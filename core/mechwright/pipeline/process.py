@@ -107,8 +107,11 @@ class Process(Plugin):
         return f"move the walls by {-off:+.4f} mm"
 
     def seconds(self, part: "Part", build: Build) -> float | None:  # noqa: ARG002 - for those that know
-        """How long it takes for one piece by estimate; None, the default, where nobody knows."""
+        """How long it takes for one piece by estimate; None, the default, where nothing gives it."""
         return None
+
+    untimed: ClassVar[str] = "not known"
+    """What gives the time of a plate without an estimate, such as "by the service", in place of one."""
 
 
 class ProcessSettings(Parameters):
