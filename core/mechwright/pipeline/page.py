@@ -3,7 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar, Protocol
+from typing import TYPE_CHECKING, Annotated, ClassVar, Protocol, TypeVar
 
 from mechwright.contracts.file_names import hold_files
 from mechwright.contracts.finding import Finding, errors
@@ -108,7 +108,10 @@ class Judged(Protocol):
         """What speaks against it."""
 
 
-def unless_forbidden[J: Judged](judged: J) -> J | None:
+J = TypeVar("J", bound=Judged)
+
+
+def unless_forbidden(judged: J) -> J | None:
     """The same; None where a finding of it forbids its files, so that pages neither name nor write any."""
     return None if errors(judged.findings) else judged
 
