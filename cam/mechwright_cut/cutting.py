@@ -8,7 +8,7 @@ from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.part import Part, name_from
 from mechwright.errors import DesignError, GeometryError, ProofError
 from mechwright.pipeline import Build
-from mechwright.pipeline.process import plates_by
+from mechwright.pipeline.process import plates_by, process_of
 from mechwright_cut.cuts import Contour, WireContour
 from mechwright_cut.jobs import CutJob, CutPart, cut_part
 from mechwright_cut.nest import nested
@@ -125,9 +125,12 @@ class Cutting:
         found = {name: plates_by(self._build.design, self._build.parts, name) for name in NAMES}
         return {name: parts for name, parts in found.items() if parts}
 
-    def kerf(self, process: Process, part: Part) -> Kerf | None:
-        """The kerf in a part's material: that of the design, a measured one, or a built-in one."""
-        if self.settings.kerf is not None:
+    def kerf(self, process: Process, part: Part, *, chosen: bool = True) -> Kerf | None:
+        """The kerf in a part's material: that of the design, a measured one, or a built-in one.
+
+        That of the design is of the process which it has ``chosen``.
+        """
+        if self.settings.kerf is not None and chosen:
             return Kerf(self.settings.kerf, 0.0, "cut.kerf", measured=True)
         return kerf_of(process.name, part.material, part.thickness, self.settings.kerfs)
 
@@ -148,7 +151,7 @@ class Cutting:
 
     def _by(self, name: str, part: Part) -> tuple[Process, Kerf | None]:
         process = self.settings.kind(name, part.material)
-        return process, self.kerf(process, part)
+        return process, self.kerf(process, part, chosen=process_of(self._build.design, part.name) == name)
 
     def _cut_part(self, name: str, process: Process, part: Part) -> CutPart:
         marks = services()[self.settings.service].engraves if name == SERVICE else process.engraves
@@ -181,11 +184,17 @@ class Cutting:
                 process, kerf = self._by(name, part)
                 if kerf is None and self._may(name, process, part):
                     yield _no_kerf(process, part)
-        for _, process, kerf, cut in self.cut_parts:
-            yield from part_findings(cut, process, kerf.width, self.settings)
-        yield from self._planned[1]
-        jobs = [job for job, _ in self._planned[0]]
-        if self.settings.common_lines and jobs and not any(job.common for job in jobs):
+        found = [
+            one
+            for _, process, kerf, cut in self.cut_parts
+            for one in part_findings(cut, process, kerf.width, self.settings)
+        ]
+        yield from found
+        # A contour that cannot be cut is told by the rules of its part, where they find why.
+        yield from (one for one in self._planned[1] if one.code != "cut.path" or not errors(found))
+        jobs = [job for job, _ in self._planned[0] if not job.process.no_common]
+        alone = jobs and not self.settings.joints and not any(job.common for job in jobs)
+        if self.settings.common_lines and alone:
             yield Finding.warning(
                 "cut.common-lines",
                 "cut.common_lines",

@@ -100,9 +100,11 @@ class _Nest:
         while True:
             length, width = math.ceil(scale * sheet.length), math.ceil(scale * sheet.width)
             if self.laid(length, width):
+                count = len(self._outlines)
+                what = f"the part of {name} does" if count == 1 else f"the {count} parts of {name} do"
+                apart = "" if count == 1 else f" with {self._gap:g} mm between them"
                 return (
-                    f"cut.sheet: the {len(self._outlines)} parts of {name} do not fit on {sheet.length:g} x "
-                    f"{sheet.width:g} mm with {self._gap:g} mm between them; set "
+                    f"cut.sheet: {what} not fit on {sheet.length:g} x {sheet.width:g} mm{apart}; set "
                     f"cut.sheet = {{ length = {length}, width = {width} }}"
                 )
             scale *= 1.1

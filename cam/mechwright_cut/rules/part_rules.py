@@ -13,6 +13,7 @@ from mechwright.geometry import Arc
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright_cut.jobs import CutPart, fitted_bores, keeps_limits, recesses
+from mechwright_cut.rules.slots import slot_findings
 from mechwright_cut.settings.cut_settings import CutSettings
 from mechwright_cut.settings.figures import Process, able, greatest_thickness, refusal
 
@@ -85,7 +86,8 @@ def part_findings(cut: CutPart, process: Process, kerf: float, settings: CutSett
     """What there is to say of a part that the process can make."""
     yield from _holes(cut, process)
     yield from _webs(cut, process)
-    yield from _corners(cut, process, kerf)
+    narrow = [*slot_findings(cut, process, kerf, settings)]
+    yield from narrow or _corners(cut, process, kerf)
     yield from _fits(cut.part, process, settings)
 
 
