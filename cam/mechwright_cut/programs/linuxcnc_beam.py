@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from mechwright_cut.cuts import Contour
 from mechwright_cut.jobs import CutJob
-from mechwright_cut.programs.words import at, comment, moves, number, title
+from mechwright_cut.programs.words import at, comment, moves, title
+from mechwright_plane.text import number
 
 BLEND = 0.002
 """Largest deviation from the path in corners, mm: P of G64."""
