@@ -15,7 +15,7 @@ from mechwright.geometry import Arc, Loop, Outline, circle
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cut.settings.cut_settings import CutSettings
-from mechwright_cut.settings.figures import Kerf, Process
+from mechwright_cut.settings.figures import Kerf, Process, heat_of
 
 PIERCE = 1.5
 """A pierce stays so many kerfs off every wall: it is wider than the cut."""
@@ -173,7 +173,9 @@ def cut_part(part: Part, process: Process, settings: CutSettings, *, marks: bool
         elif not marks:
             after.append(f"mark {detail.name} by hand")
     outline = Outline(part.outline.outer, tuple(inner), part.outline.deviation)
-    return CutPart(part, outline, tuple(after), tuple(spots))
+    heat = heat_of(process.name, part.material, after)
+    steps = after if heat is None else [heat.step, *after]
+    return CutPart(part, outline, tuple(steps), tuple(spots))
 
 
 def _cut_diameter(

@@ -136,6 +136,33 @@ def test_holes_below_the_least_are_refused_or_marked():
     assert cut.finishing[0] == "drill a hole of 1.2 mm at (0, 0), where a cross marks it"
 
 
+@pytest.mark.parametrize(
+    ("process", "material", "said", "step"),
+    [
+        ("co2-laser", "acrylic", {"fits": "bush"}, "anneal at 70 °C"),
+        ("co2-laser", "acrylic", {}, ""),
+        ("waterjet", "acrylic", {"fits": "bush"}, ""),
+        ("fibre-laser", "steel", {}, "drill through the hard edge"),
+        ("fibre-laser", "steel", {"fits": "bush"}, ""),
+        ("fibre-laser", "aluminium", {}, ""),
+        ("wire", "steel", {}, ""),
+    ],
+)
+def test_what_suffers_from_heat_has_a_step_before_it(process, material, said, step):
+    fit = hole_fit(5.0, "H6")
+    bored = (
+        Bore("bore", (0.0, 0.0), 5.0, 0.0, 3.0, fit=fit),
+        Profile("outside", rounded_box(24, 16, 3), "outside", 0, 3),
+    )
+    part = plate("p", bore(5), material=material, machined=bored)
+    cut = cut_part(part, processes()[process], CutSettings(**said))
+    assert cut.finishing, "the fit is made afterwards"
+    first = cut.finishing[0]
+    assert step in first if step else "before" not in first
+    told = of("cut.heat", findings(part, process, **said))
+    assert [step in one.message for one in told] == ([True] if step else [])
+
+
 def slotted(width, material="acrylic", *, through=True):
     """A plate of 60 x 40 mm with a slot, from its edge or closed, about (40, 20) or (25, 20)."""
     low, high = 20 - width / 2, 20 + width / 2
@@ -277,7 +304,7 @@ def test_a_fit_that_no_kerf_holds_is_reamed_bushed_or_refused():
     assert note.severity is Severity.NOTE
     cut = cut_part(part, processes()["fibre-laser"], PLAIN)
     assert 2 * cut.outline.inner[0].segments[0].radius == pytest.approx(8.0075 - 0.5, abs=1e-3)
-    assert cut.finishing == ("ream to 8 H7 (0/+0.015): seat at (0, 0)",)
+    assert cut.finishing[-1:] == ("ream to 8 H7 (0/+0.015): seat at (0, 0)",)
     bushed = cut_part(part, processes()["fibre-laser"], CutSettings(fits="bush"))
     assert 2 * bushed.outline.inner[0].segments[0].radius == pytest.approx(11.0)
     assert bushed.finishing[0].startswith("bond a bush of 11 x 8 H7")

@@ -15,7 +15,7 @@ from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright_cut.jobs import CutPart, fitted_bores, keeps_limits, recesses
 from mechwright_cut.rules.slots import slot_findings
 from mechwright_cut.settings.cut_settings import CutSettings
-from mechwright_cut.settings.figures import Process, able, greatest_thickness, refusal
+from mechwright_cut.settings.figures import Process, able, greatest_thickness, heat_of, refusal
 
 FELT = 0.05
 """A corner that keeps less than this, mm, is not worth a word."""
@@ -89,6 +89,8 @@ def part_findings(cut: CutPart, process: Process, kerf: float, settings: CutSett
     narrow = [*slot_findings(cut, process, kerf, settings)]
     yield from narrow or _corners(cut, process, kerf)
     yield from _fits(cut.part, process, settings)
+    if heat := heat_of(process.name, cut.part.material, cut.finishing):
+        yield Finding.note("cut.heat", f"{cut.part.name}: {heat.why}: {heat.step}")
 
 
 def _error(

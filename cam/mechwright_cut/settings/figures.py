@@ -194,6 +194,34 @@ def _toml_refused() -> Sequence[dict[str, Any]]:
     return rows
 
 
+@dataclass(frozen=True, slots=True)
+class Heat:
+    """What heat does to an edge, and the step that comes before what suffers from it."""
+
+    why: str
+    step: str
+
+
+def heat_of(process: str, name: str, finishing: Sequence[str]) -> Heat | None:
+    """What the heat of a process means for what is done afterwards; None where it means nothing.
+
+    >>> heat_of("co2-laser", "acrylic", ["bond a bush of 8 x 5 H7"]).step
+    'anneal at 70 °C for 2 to 4 h before bonding'
+    >>> heat_of("waterjet", "acrylic", ["bond a bush of 8 x 5 H7"])
+    """
+    for row in _toml_heat():
+        of_it = process in row["processes"] and {*_names(name)} & set(row["words"])
+        if of_it and any(one.startswith(tuple(row["before"])) for one in finishing):
+            return Heat(row["why"], row["step"])
+    return None
+
+
+@cache
+def _toml_heat() -> Sequence[dict[str, Any]]:
+    rows: list[dict[str, Any]] = _toml("heat.toml")["heat"]
+    return rows
+
+
 def greatest_thickness(process: Process, name: str) -> float | None:
     """The thickest sheet of a material that a process cuts, mm; None where nothing is known."""
     return next((process.thickest[one] for one in _names(name) if one in process.thickest), None)
