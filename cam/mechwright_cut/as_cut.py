@@ -22,8 +22,8 @@ from mechwright_cut.jobs import CutPiece
 from mechwright_cut.proof.reading import read_beam
 from mechwright_cut.proof.swept import runs, way
 from mechwright_cut.proof.wire_judge import wire_walls
-from mechwright_cut.service.services import services
 from mechwright_cut.settings.cut_settings import SERVICE
+from mechwright_cut.settings.services import services
 
 NUDGE = 1e-4
 """A place is tried so far off the material, mm, to see on which side of it the wall stands."""

@@ -21,10 +21,11 @@ from mechwright_cut.proof.judge import CutProof, Question, TargetPiece, prove
 from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
 from mechwright_cut.rows import SHORTEST
 from mechwright_cut.rules.part_rules import loses, part_findings, refused
-from mechwright_cut.service.services import services
+from mechwright_cut.rules.service_rules import service_findings
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
 from mechwright_cut.settings.cut_table import cut_settings
 from mechwright_cut.settings.figures import Kerf, Process, kerf_of, refusal
+from mechwright_cut.settings.services import services
 
 WRITERS = {"grbl-laser": grbl_laser, "linuxcnc-beam": linuxcnc_beam}
 """Control of a beam to what writes its programs."""
@@ -162,7 +163,13 @@ class Cutting:
         process, kerf = self._by(name, part)
         if kerf is None:
             return [_no_kerf(process, part)]
-        return [*part_findings(self._cut_part(name, process, part), process, kerf.width, self.settings)]
+        return [*self._told(name, self._cut_part(name, process, part), process, kerf)]
+
+    def _told(self, name: str, cut: CutPart, process: Process, kerf: Kerf) -> Iterator[Finding]:
+        yield from part_findings(cut, process, kerf.width, self.settings)
+        if name == SERVICE:
+            jet = process.name == "waterjet"
+            yield from service_findings(cut, services()[self.settings.service], jet)
 
     def losses_of(self, name: str, part: Part) -> list[str]:
         """What a plate has less of than as drawn by a process, in a few words each."""
@@ -185,9 +192,7 @@ class Cutting:
                 if kerf is None and self._may(name, process, part):
                     yield _no_kerf(process, part)
         found = [
-            one
-            for _, process, kerf, cut in self.cut_parts
-            for one in part_findings(cut, process, kerf.width, self.settings)
+            one for name, process, kerf, cut in self.cut_parts for one in self._told(name, cut, process, kerf)
         ]
         yield from found
         # A contour that cannot be cut is told by the rules of its part, where they find why.

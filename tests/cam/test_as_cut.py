@@ -11,8 +11,8 @@ from planning_parts import bore
 from mechwright_cut.as_cut import parts_as_cut, parts_ordered
 from mechwright_cut.jobs import cut_part
 from mechwright_cut.service.drawing import service_drawing
-from mechwright_cut.service.services import services
 from mechwright_cut.settings.cut_settings import CutSettings
+from mechwright_cut.settings.services import services
 
 
 def made(job, control="grbl-laser", change=lambda text: text):

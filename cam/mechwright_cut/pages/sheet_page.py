@@ -12,7 +12,7 @@ from mechwright.output.templates import templates
 from mechwright_cut.cuts import Contour, WireContour
 from mechwright_cut.cutting import Cutting, ProvenCut
 from mechwright_cut.service.drawing import SUFFIX
-from mechwright_cut.service.services import services
+from mechwright_cut.settings.services import services
 
 ROLES = {"engrave": "mark", "inside": "opening", "common": "common line", "outside": "outside"}
 AROUND = 5.0

@@ -21,7 +21,7 @@ from ezdxf.lldxf.const import DXFError
 
 from mechwright.geometry import Outline
 from mechwright.tolerances import TOLERANCES
-from mechwright_cut.service.services import ServiceRules
+from mechwright_cut.settings.services import ServiceRules
 
 LAYERS = frozenset({"CUT", "ENGRAVE"})
 VERSIONS = {"R2000": "AC1015", "R2010": "AC1024"}

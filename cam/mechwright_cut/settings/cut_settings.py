@@ -8,6 +8,7 @@ from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.parameters import FIRST, GIVEN, Parameters
 from mechwright.units import Millimetres, MillimetresPerMin, Ratio, Seconds, Unit
 from mechwright_cut.settings.figures import Process, ProcessName, processes
+from mechwright_cut.settings.services import services
 
 LASER, WATERJET, PLASMA, WIRE, SERVICE = NAMES = ("laser", "waterjet", "plasma", "wire", "service")
 """What ``process`` says."""
@@ -128,19 +129,21 @@ class CutSettings(Parameters):
         return self.full_power * self.engrave_power / 100, self.engrave_feed
 
     def kind(self, process: str, material: str) -> Process:
-        """The figures of what cuts a material: of a service, that by which it does.
+        """The figures of what cuts a material: of a service, that by which it does, with its own limits.
 
         A service has a fibre laser for metals.
 
         >>> CutSettings(laser="diode").kind("laser", "mdf").words
         'diode laser'
         >>> [CutSettings(by=by).kind("service", "steel").words for by in ("laser", "wire")]
-        ['fibre laser', 'wire erosion']
+        ['fibre laser of SendCutSend', 'wire erosion of SendCutSend']
         """
-        name = self.by if process == SERVICE else process
-        if name != LASER:
-            return processes()[name]
-        if process == LASER:
-            return processes()[f"{self.laser}-laser"]
+        if process == SERVICE:
+            return services()[self.service].limited(self._by_service(material))
+        return processes()[f"{self.laser}-laser" if process == LASER else process]
+
+    def _by_service(self, material: str) -> Process:
+        if self.by != LASER:
+            return processes()[self.by]
         metal = MATERIALS[material].kind in {"steel", "soft metal"} if material in MATERIALS else False
         return processes()["fibre-laser" if metal else "co2-laser"]
