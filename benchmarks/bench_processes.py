@@ -1,11 +1,12 @@
 """The first example of each family by laser, by service and by wire: proven, and assembled as made.
 
-    python benchmarks/bench_processes.py [--into FOLDER] [CASE ...]
+    python benchmarks/bench_processes.py [--into FOLDER] [--service SERVICE] [--material MATERIAL] [CASE ...]
 
 A case is a process and a family, such as ``laser/geneva``. Its design is an example with the material and the
 thickness of the process. Changes that the first error proposes are made until none is left, at most ten
 times; the row names the keys. Then programs or drawings are made and proven, and the family judges the
-mechanism with walls as the programs leave them. Solids are not compared. FOLDER keeps the files.
+mechanism with walls as the programs or drawings leave them. Solids are not compared. FOLDER keeps the files.
+SERVICE is one of those whose rules are known; MATERIAL is that of its plates in place of steel.
 """
 
 import argparse
@@ -168,7 +169,9 @@ def _count(row: Row, build: Build) -> None:
     plates, said = build.made(produced_plates), build.made(as_made)
     worst = max((float(abs(part.off).max()) for parts in plates.values() for part in parts), default=0.0)
     judged = f"{len(said.figures)} figures" if said.figures else "not judged"
-    row.walls = f"{judged}, walls within {1000 * worst:.1f} µm" if plates else "not judged"
+    if not build.design.family.moves:
+        judged = "mates with nothing"
+    row.walls = f"{judged}, walls within {1000 * worst:.1f} µm"
 
 
 def main() -> None:
@@ -179,7 +182,12 @@ def main() -> None:
     parser.add_argument("--into", type=Path, help="folder that keeps the files")
     every = [f"{process}/{family}" for process, (_, _, of) in PROCESSES.items() for family in of]
     parser.add_argument("cases", nargs="*", default=every)
+    parser.add_argument("--service", default="sendcutsend", help="who cuts in the cases of a service")
+    parser.add_argument("--material", default="steel", help="what the plates of a service are made of")
     args = parser.parse_args()
+    table, _, families = PROCESSES["service"]
+    material = {"parameters.material": args.material}
+    PROCESSES["service"] = ({**table, "service": args.service}, material, families)
     with tempfile.TemporaryDirectory() as other:
         for case in args.cases:
             print(json.dumps(asdict(tried(case, args.into or Path(other))), ensure_ascii=False), flush=True)

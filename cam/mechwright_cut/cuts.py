@@ -5,7 +5,8 @@ Glossary
 stroke
     A path that is cut without a stop of the beam.
 role
-    What a contour does: mark the surface, open an inside, or free an outside.
+    What a contour does: mark the surface, open an inside, cut an edge that two parts share, or free an
+    outside.
 """
 
 from dataclasses import dataclass
@@ -14,7 +15,9 @@ from typing import Literal
 from mechwright.geometry.segments import Point
 from mechwright_plane.path import Path
 
-Role = Literal["engrave", "inside", "outside"]
+Role = Literal["engrave", "inside", "common", "outside"]
+WORKING = frozenset({"flank", "slot", "lobe", "dwell", "cam", "side"})
+"""Names of segments on which the mark of a lead would be felt."""
 
 
 @dataclass(frozen=True)
@@ -28,17 +31,25 @@ class Contour:
     role
         What it does.
     strokes
-        Cut one after the other; between two of them the beam is off over a micro-joint.
+        Cut one after the other; between two of them the beam is off over a micro-joint or a common line.
+    opened
+        Whether each stroke begins in a cut that is there, so that nothing is pierced.
     """
 
     name: str
     role: Role
     strokes: tuple[Path, ...]
+    opened: bool = False
 
     @property
     def start(self) -> Point:
         """Where the beam goes on first."""
         return self.strokes[0].start
+
+    @property
+    def pierces(self) -> int:
+        """How often the beam goes through the sheet."""
+        return 0 if self.opened or self.role == "engrave" else len(self.strokes)
 
     @property
     def length(self) -> float:

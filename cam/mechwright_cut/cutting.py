@@ -8,9 +8,10 @@ from mechwright.contracts.finding import Finding, Stage, errors
 from mechwright.contracts.part import Part, name_from
 from mechwright.errors import DesignError, GeometryError, ProofError
 from mechwright.pipeline import Build
-from mechwright.pipeline.process import plates_by
+from mechwright.pipeline.process import plates_by, process_of
 from mechwright_cut.cuts import Contour, WireContour
-from mechwright_cut.jobs import CutJob, CutPart, cut_part, nested
+from mechwright_cut.jobs import CutJob, CutPart, cut_part
+from mechwright_cut.nest import nested
 from mechwright_cut.paths.order import contours
 from mechwright_cut.paths.wire import wire_contours
 from mechwright_cut.programs.grbl_laser import grbl_laser
@@ -18,11 +19,13 @@ from mechwright_cut.programs.iso_wire import iso_wire
 from mechwright_cut.programs.linuxcnc_beam import linuxcnc_beam
 from mechwright_cut.proof.judge import CutProof, Question, TargetPiece, prove
 from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
+from mechwright_cut.rows import SHORTEST
 from mechwright_cut.rules.part_rules import loses, part_findings, refused
-from mechwright_cut.service.services import services
+from mechwright_cut.rules.service_rules import service_findings
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
 from mechwright_cut.settings.cut_table import cut_settings
 from mechwright_cut.settings.figures import Kerf, Process, kerf_of, refusal
+from mechwright_cut.settings.services import services
 
 WRITERS = {"grbl-laser": grbl_laser, "linuxcnc-beam": linuxcnc_beam}
 """Control of a beam to what writes its programs."""
@@ -79,6 +82,7 @@ def question(job: CutJob, control: str) -> Question:
         joint_width=settings.joint_width,
         taper=job.process.taper,
         refused="" if why is None or lifted else why.why,
+        common=bool(job.common),
     )
 
 
@@ -122,9 +126,12 @@ class Cutting:
         found = {name: plates_by(self._build.design, self._build.parts, name) for name in NAMES}
         return {name: parts for name, parts in found.items() if parts}
 
-    def kerf(self, process: Process, part: Part) -> Kerf | None:
-        """The kerf in a part's material: that of the design, a measured one, or a built-in one."""
-        if self.settings.kerf is not None:
+    def kerf(self, process: Process, part: Part, *, chosen: bool = True) -> Kerf | None:
+        """The kerf in a part's material: that of the design, a measured one, or a built-in one.
+
+        That of the design is of the process which it has ``chosen``.
+        """
+        if self.settings.kerf is not None and chosen:
             return Kerf(self.settings.kerf, 0.0, "cut.kerf", measured=True)
         return kerf_of(process.name, part.material, part.thickness, self.settings.kerfs)
 
@@ -145,7 +152,7 @@ class Cutting:
 
     def _by(self, name: str, part: Part) -> tuple[Process, Kerf | None]:
         process = self.settings.kind(name, part.material)
-        return process, self.kerf(process, part)
+        return process, self.kerf(process, part, chosen=process_of(self._build.design, part.name) == name)
 
     def _cut_part(self, name: str, process: Process, part: Part) -> CutPart:
         marks = services()[self.settings.service].engraves if name == SERVICE else process.engraves
@@ -156,7 +163,13 @@ class Cutting:
         process, kerf = self._by(name, part)
         if kerf is None:
             return [_no_kerf(process, part)]
-        return [*part_findings(self._cut_part(name, process, part), process, kerf.width, self.settings)]
+        return [*self._told(name, self._cut_part(name, process, part), process, kerf)]
+
+    def _told(self, name: str, cut: CutPart, process: Process, kerf: Kerf) -> Iterator[Finding]:
+        yield from part_findings(cut, process, kerf.width, self.settings)
+        if name == SERVICE:
+            jet = process.name == "waterjet"
+            yield from service_findings(cut, services()[self.settings.service], jet)
 
     def losses_of(self, name: str, part: Part) -> list[str]:
         """What a plate has less of than as drawn by a process, in a few words each."""
@@ -178,9 +191,23 @@ class Cutting:
                 process, kerf = self._by(name, part)
                 if kerf is None and self._may(name, process, part):
                     yield _no_kerf(process, part)
-        for _, process, kerf, cut in self.cut_parts:
-            yield from part_findings(cut, process, kerf.width, self.settings)
-        yield from self._planned[1]
+        found = [
+            one for name, process, kerf, cut in self.cut_parts for one in self._told(name, cut, process, kerf)
+        ]
+        yield from found
+        # A contour that cannot be cut is told by the rules of its part, where they find why.
+        yield from (one for one in self._planned[1] if one.code != "cut.path" or not errors(found))
+        jobs = [job for job, _ in self._planned[0] if not job.process.no_common]
+        alone = jobs and not self.settings.joints and not any(job.common for job in jobs)
+        if self.settings.common_lines and alone:
+            yield Finding.warning(
+                "cut.common-lines",
+                "cut.common_lines",
+                f"no two parts of a sheet have straight edges of at least {SHORTEST:g} mm outermost; none is "
+                "shared",
+                remedy="set cut.common_lines = false",
+                stage=Stage.MACHINING,
+            )
 
     @cached_property
     def _planned(self) -> tuple[list[tuple[CutJob, Ways]], list[Finding]]:
@@ -260,6 +287,22 @@ def _error(code: str, key: str, message: str, remedy: str) -> Finding:
     return Finding.error(code, key, message, remedy=remedy, stage=Stage.MACHINING)
 
 
+def _no_common_lines(settings: CutSettings, name: str, process: Process) -> Iterator[Finding]:
+    """Why parts cannot share edges by a process, or with other keys."""
+    remedy = "set cut.common_lines = false"
+    if name == SERVICE:
+        said = "common lines, and a service lays the parts on its sheets: each drawing has one part"
+        yield _error("cut.common-lines", "cut.common_lines", said, remedy)
+    elif process.no_common:
+        said = f"common lines, and not by {process.words}: {process.no_common}"
+        yield _error("cut.common-lines", "cut.common_lines", said, remedy)
+    elif settings.joints and process.joints:
+        said = (
+            f"common lines, and {settings.joints} micro-joints: at a common line no part hangs in the sheet"
+        )
+        yield _error("cut.common-lines", "cut.common_lines", said, f"{remedy}, or cut.joints = 0")
+
+
 def _no_kerf(process: Process, part: Part) -> Finding:
     return _error(
         "cut.kerf",
@@ -274,6 +317,8 @@ def _wrong_settings(settings: CutSettings, name: str, process: Process) -> Itera
     if settings.joints and not process.joints and name != SERVICE:
         said = f"{settings.joints} micro-joints, and {process.words} has none"
         yield _error("cut.joints", "cut.joints", said, "set cut.joints = 0")
+    if settings.common_lines:
+        yield from _no_common_lines(settings, name, process)
     laser = process.name.endswith("laser")
     if settings.control == "grbl-laser" and not laser:
         said = f"grbl-laser is for lasers, and not for {process.words}"

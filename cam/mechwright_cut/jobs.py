@@ -4,7 +4,6 @@ A part is cut as its outline, but for holes that are made larger afterwards, or 
 """
 
 import math
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,16 +11,12 @@ import shapely
 
 from mechwright.contracts.details import Chamfer, Engraving, Thread
 from mechwright.contracts.part import Bore, Part, Pocket, Profile
-from mechwright.errors import DesignError
 from mechwright.geometry import Arc, Loop, Outline, circle
-from mechwright.geometry.packing import on_plate
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cut.settings.cut_settings import CutSettings
-from mechwright_cut.settings.figures import Kerf, Process
+from mechwright_cut.settings.figures import Kerf, Process, heat_of
 
-MOST = 400
-"""Copies on one sheet at most: their number comes from a file, and each costs time."""
 PIERCE = 1.5
 """A pierce stays so many kerfs off every wall: it is wider than the cut."""
 BESIDE = 1.5
@@ -88,6 +83,26 @@ class CutPiece:
 
 
 @dataclass(frozen=True)
+class CommonLine:
+    """An edge that two pieces share: their numbers, and how far it is the edge of each, mm.
+
+    Both stretches lie on the middle of the kerf; the line is the longer one, which has the other in it.
+    """
+
+    pieces: tuple[int, int]
+    stretches: tuple[tuple[Point, Point], tuple[Point, Point]]
+
+    @property
+    def whole(self) -> tuple[Point, Point]:
+        """The ends of the line."""
+        return max(self.stretches, key=lambda ends: round(math.dist(*ends), 6))
+
+    def of(self, piece: int) -> tuple[Point, Point]:
+        """The stretch of one of the two pieces."""
+        return self.stretches[self.pieces.index(piece)]
+
+
+@dataclass(frozen=True)
 class CutJob:
     """One sheet."""
 
@@ -98,6 +113,7 @@ class CutJob:
     kerf: Kerf
     settings: CutSettings
     pieces: tuple[CutPiece, ...]
+    common: tuple[CommonLine, ...] = ()
 
     @property
     def size(self) -> tuple[float, float]:
@@ -157,7 +173,9 @@ def cut_part(part: Part, process: Process, settings: CutSettings, *, marks: bool
         elif not marks:
             after.append(f"mark {detail.name} by hand")
     outline = Outline(part.outline.outer, tuple(inner), part.outline.deviation)
-    return CutPart(part, outline, tuple(after), tuple(spots))
+    heat = heat_of(process.name, part.material, after)
+    steps = after if heat is None else [heat.step, *after]
+    return CutPart(part, outline, tuple(steps), tuple(spots))
 
 
 def _cut_diameter(
@@ -205,59 +223,6 @@ def gap_of(settings: CutSettings, kerf: Kerf, process: Process, thickness: float
         return round(settings.start_hole + 2 * BESIDE + 1, 2)
     lead = lead_radius(settings, kerf.width) + PIERCE * kerf.width + kerf.width
     return round(max(process.least_web(thickness) + 2 * kerf.width, 2 * lead), 2)
-
-
-def nested(
-    name: str, parts: Iterable[CutPart], process: Process, kerf: Kerf, settings: CutSettings
-) -> CutJob:
-    """The copies of some parts on one sheet; raises DesignError where they do not fit.
-
-    The largest first, each turned by 90 degrees where it then lies lower.
-    """
-    items: list[tuple[CutPart, str]] = []
-    for one in parts:
-        count = max(1, len(one.part.instances))
-        items += [(one, one.part.name if count == 1 else f"{one.part.name} no {n + 1}") for n in range(count)]
-    if len(items) > MOST:
-        raise DesignError(
-            f"cut.sheet: {len(items)} copies on one sheet, at most {MOST}; cut fewer parts at once"
-        )
-    sizes = {id(one): _size(one.outline) for one, _ in items}
-    items.sort(key=lambda item: (-max(sizes[id(item[0])]), -min(sizes[id(item[0])])))
-    first = items[0][0].part
-    gap = gap_of(settings, kerf, process, first.thickness)
-    rim = settings.sheet.margin + gap / 2
-    wanted = [sizes[id(one)] for one, _ in items]
-    room = settings.sheet.length - 2 * rim, settings.sheet.width - 2 * rim
-    layout = on_plate(wanted, *room, gap, True) if min(room) > 0 else None
-    if layout is None:
-        raise DesignError(_too_small(name, wanted, gap, rim, settings))
-    pieces = []
-    for (one, label), (x, y, turned) in zip(items, layout.spots, strict=True):
-        x0, y0, _, y1 = one.outline.bounds
-        (left, low), angle = ((-y1, x0), math.pi / 2) if turned else ((x0, y0), 0.0)
-        pieces.append(CutPiece(one, label, rim + x - left, rim + y - low, angle))
-    return CutJob(name, process, first.material, first.thickness, kerf, settings, tuple(pieces))
-
-
-def _size(outline: Outline) -> tuple[float, float]:
-    x0, y0, x1, y1 = outline.bounds
-    return x1 - x0, y1 - y0
-
-
-def _too_small(
-    name: str, sizes: Sequence[tuple[float, float]], gap: float, rim: float, settings: CutSettings
-) -> str:
-    sheet, scale = settings.sheet, 1.05
-    while True:
-        length, width = math.ceil(scale * sheet.length), math.ceil(scale * sheet.width)
-        if on_plate(sizes, max(length - 2 * rim, 1e-3), max(width - 2 * rim, 1e-3), gap, True):
-            return (
-                f"cut.sheet: the {len(sizes)} parts of {name} do not fit on {sheet.length:g} x "
-                f"{sheet.width:g} mm with {gap:g} mm between them; set "
-                f"cut.sheet = {{ length = {length}, width = {width} }}"
-            )
-        scale *= 1.1
 
 
 def target(piece: CutPiece) -> shapely.Polygon:

@@ -45,12 +45,13 @@ class Cut(Process):
         return Spread(process.size, process.taper)
 
     def produced(self, part: Part, build: Build) -> Sequence[MadePart]:
-        """The walls of the text, and the taper; nothing of a service."""
+        """The walls of the text, or of the drawing for a service, and the taper."""
         from mechwright_cut.as_cut import plates_as_cut
 
         return build.made(plates_as_cut).get(part.name, ())
 
     by_material = True
+    untimed = "by cut.feed"
 
     def correction(self, off: float, walls: str, part: Part, build: Build) -> str:
         """The kerf: what stays on a wall is half of what it is narrower than it was taken for."""
@@ -133,9 +134,20 @@ class Wire(Cut):
         which = "" if walls == "all" else f", as {walls} walls have it"
         return f"set offsets = [{after}] in [cut]{which} (now {', '.join(f'{one:g}' for one in before)})"
 
-    def seconds(self, part: Part, build: Build) -> float | None:  # noqa: ARG002
-        """The generator's conditions decide, and nobody here knows them."""
-        return None
+    untimed = "by cut.wire_rate"
+
+    def seconds(self, part: Part, build: Build) -> float | None:
+        """The area of the walls at the rate of the machine, as often as it is run.
+
+        No public table gives the rate: thickness, wire and the generator's conditions decide it.
+        """
+        from mechwright_cut.settings.cut_table import cut_settings
+
+        settings = cut_settings(build.design)
+        if part.outline is None or settings.wire_rate is None:
+            return None
+        walls = float(part.outline.polygon().length) * part.thickness
+        return 60 * settings.passes * walls / settings.wire_rate
 
 
 class Service(Cut):
@@ -150,6 +162,8 @@ class Service(Cut):
         more = "left" if off > 0 else "cut off"
         return f"write to the service that {abs(off):.4f} mm too much is {more}{which}"
 
+    untimed = "by the service"
+
     def seconds(self, part: Part, build: Build) -> float | None:  # noqa: ARG002
-        """Nobody here knows."""
+        """None: what counts is the service's lead time, which is no time of a machine."""
         return None

@@ -7,7 +7,8 @@ from planning_parts import bore, rounded_box
 from mechwright.contracts.part import Instance, Part
 from mechwright.geometry import Arc, Line, Loop, Outline
 from mechwright_cut.cutting import question, wire_question
-from mechwright_cut.jobs import cut_part, nested
+from mechwright_cut.jobs import cut_part
+from mechwright_cut.nest import nested
 from mechwright_cut.paths.order import contours
 from mechwright_cut.paths.wire import wire_contours
 from mechwright_cut.programs.grbl_laser import grbl_laser

@@ -8,7 +8,11 @@ import shapely
 from cut_sheets import beam, copies, plate, sheet_of, toothed, wire
 from planning_parts import bore
 
-from mechwright_cut.as_cut import parts_as_cut
+from mechwright_cut.as_cut import parts_as_cut, parts_ordered
+from mechwright_cut.jobs import cut_part
+from mechwright_cut.service.drawing import service_drawing
+from mechwright_cut.settings.cut_settings import CutSettings
+from mechwright_cut.settings.services import services
 
 
 def made(job, control="grbl-laser", change=lambda text: text):
@@ -63,3 +67,23 @@ def test_a_wall_that_the_text_leaves_elsewhere_is_seen():
     (one,) = parts_as_cut(SimpleNamespace(job=job, text=text, suffix=".nc"))
     hole = one.hole_at(0.0, 0.0, 8.0)
     assert hole.diameter == pytest.approx(8.04, abs=0.003)
+
+
+@pytest.mark.parametrize("service", ["sendcutsend", "ponoko"])
+@pytest.mark.parametrize("wide", [8.0, 8.04])
+def test_walls_of_a_service_stand_where_its_drawing_has_them(service, wide):
+    """Ponoko's paths are the middle of its kerf, those of the others the wall itself."""
+    settings = CutSettings(service=service)
+    process, rules = settings.kind("service", "acrylic"), services()[service]
+    parts = [plate("plate", bore(hole), size=(24, 18, 3)) for hole in (8.0, wide)]
+    wanted, drawn = (cut_part(one, process, settings) for one in parts)
+    cutting = SimpleNamespace(
+        ordered=[wanted],
+        settings=settings,
+        drawings={"plate-cut.dxf": service_drawing(drawn, rules)},
+    )
+    (one,) = parts_ordered(cutting)
+    assert one.hole_at(0.0, 0.0, 8.0).diameter == pytest.approx(wide, abs=0.003)
+    assert one.corridor == pytest.approx(0.005 + process.taper / 2)
+    drawn_shape = parts[1].outline.polygon()
+    assert shapely.symmetric_difference(one.outline.shape(), drawn_shape).area < 0.003 * drawn_shape.length

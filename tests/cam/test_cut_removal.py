@@ -11,7 +11,7 @@ import re
 import numpy as np
 import pytest
 import shapely
-from cut_sheets import beam, plate, sheet_of, toothed
+from cut_sheets import beam, copies, plate, sheet_of, toothed
 from planning_parts import bore, lobes, rounded_box
 
 from mechwright.contracts.part import Part
@@ -104,3 +104,31 @@ def test_the_piece_that_is_left_has_the_outline_s_walls(name):
         assert off.min() > kerf / 2 - 0.005
         assert np.median(off) == pytest.approx(kerf / 2, abs=0.003)
         assert off.max() < kerf / 2 * math.sqrt(2) + 0.005
+
+
+@pytest.mark.parametrize("name", ["box", "plate", "lobes"])
+@pytest.mark.parametrize("kerf", [0.1, 0.3])
+def test_what_falls_of_a_row_is_every_part_and_nothing_else(name, kerf):
+    """All ways of a sheet with common lines make polygons, each of which is a part or an opening of one."""
+    sheet = {"length": 400.0, "width": 300.0, "margin": 2.0}
+    job = sheet_of(copies(PARTS[name], 4), kerf=kerf, common_lines=True, sheet=sheet)
+    text, asked = beam(job)
+    assert len(job.common) == (0 if name == "lobes" else 3)
+    lines = shapely.MultiLineString([shapely.LineString(way) for way in ways(text)])
+    # Places within a micrometre are one: a stretch begins on a line to the last digit that is printed.
+    faces = shapely.get_parts(shapely.polygonize([shapely.node(shapely.set_precision(lines, 1e-3))]))
+    parts = [shapely.union_all(_of(faces, one.outline)) for one in asked.pieces]
+    for one, face in zip(asked.pieces, parts, strict=True):
+        ring = shapely.Polygon(one.outline.outer.flatten())
+        # Half a kerf inside its face a part has its own area: each wall within 5 µm.
+        piece = shapely.buffer(face, -kerf / 2, quad_segs=64)
+        assert shapely.symmetric_difference(piece, ring).area < 0.005 * ring.length
+        assert shapely.hausdorff_distance(piece, ring) < 0.25 * kerf + 0.005, "but for corners"
+    apart = shapely.union_all([shapely.buffer(one, -1e-3) for one in parts])
+    assert apart.area == pytest.approx(sum(shapely.buffer(one, -1e-3).area for one in parts), abs=1e-6)
+
+
+def _of(faces, outline):
+    """Faces inside an outline that is moved by the width of a hair more than the kerf."""
+    around = shapely.buffer(shapely.Polygon(outline.outer.flatten()), 0.4)
+    return [face for face in faces if shapely.covers(around, face)]

@@ -136,6 +136,144 @@ def test_holes_below_the_least_are_refused_or_marked():
     assert cut.finishing[0] == "drill a hole of 1.2 mm at (0, 0), where a cross marks it"
 
 
+@pytest.mark.parametrize(
+    ("process", "material", "said", "step"),
+    [
+        ("co2-laser", "acrylic", {"fits": "bush"}, "anneal at 70 °C"),
+        ("co2-laser", "acrylic", {}, ""),
+        ("waterjet", "acrylic", {"fits": "bush"}, ""),
+        ("fibre-laser", "steel", {}, "drill through the hard edge"),
+        ("fibre-laser", "steel", {"fits": "bush"}, ""),
+        ("fibre-laser", "aluminium", {}, ""),
+        ("wire", "steel", {}, ""),
+    ],
+)
+def test_what_suffers_from_heat_has_a_step_before_it(process, material, said, step):
+    fit = hole_fit(5.0, "H6")
+    bored = (
+        Bore("bore", (0.0, 0.0), 5.0, 0.0, 3.0, fit=fit),
+        Profile("outside", rounded_box(24, 16, 3), "outside", 0, 3),
+    )
+    part = plate("p", bore(5), material=material, machined=bored)
+    cut = cut_part(part, processes()[process], CutSettings(**said))
+    assert cut.finishing, "the fit is made afterwards"
+    first = cut.finishing[0]
+    assert step in first if step else "before" not in first
+    told = of("cut.heat", findings(part, process, **said))
+    assert [step in one.message for one in told] == ([True] if step else [])
+
+
+def slotted(width, material="acrylic", *, through=True):
+    """A plate of 60 x 40 mm with a slot, from its edge or closed, about (40, 20) or (25, 20)."""
+    low, high = 20 - width / 2, 20 + width / 2
+    if through:
+        loop = [(0, 0), (60, 0), (60, low), (20, low), (20, high), (60, high), (60, 40), (0, 40)]
+        return Part("plate", Outline(Loop.polygon(loop)), 3, material)
+    slot = Loop.polygon([(10, low), (40, low), (40, high), (10, high)]).reversed()
+    return Part("plate", Outline(Loop.polygon([(0, 0), (60, 0), (60, 40), (0, 40)]), (slot,)), 3, material)
+
+
+@pytest.mark.parametrize("through", [True, False])
+@pytest.mark.parametrize(
+    ("process", "material", "width", "said"),
+    [
+        ("co2-laser", "acrylic", 0.15, "set cut.kerf = 0.149 if a test cut shows that"),
+        ("co2-laser", "plywood", 0.18, 'set cut.laser = "diode"'),
+        ("waterjet", "steel", 0.5, 'set process = "wire"'),
+        ("waterjet", "acrylic", 0.5, 'set process = "laser", with cut.laser co2'),
+    ],
+)
+def test_a_kerf_that_is_wider_than_a_slot_names_what_goes_in(process, material, width, said, through):
+    """The place is one of the part; a kerf of what is named goes into the slot."""
+    part = slotted(width, material, through=through)
+    kerf = kerf_of(process, material, 3).width
+    (told,) = of("cut.path", findings(part, process, kerf))
+    assert told.severity is Severity.ERROR
+    assert f"the kerf of {kerf:g} mm is wider than the slot at (" in told.message
+    x, y = (float(word) for word in told.message.rpartition("(")[2].rstrip(")").split(", "))
+    assert 10 <= x <= 60
+    assert abs(y - 20) <= width / 2
+    assert said in told.remedy
+    assert f"draw it {kerf + 0.001:g} mm wide" in told.remedy
+    own = float(told.remedy.partition("cut.kerf = ")[2].split()[0])
+    assert own == pytest.approx(width, abs=2e-3)
+    assert not of("cut.path", findings(part, process, own))
+    assert not of("cut.path", findings(slotted(kerf + 0.001, material, through=through), process, kerf))
+    assert not of("cut.corner", findings(part, process, kerf)), "the slot is no corner"
+
+
+def test_a_slot_for_a_wire_has_room_for_its_widest_pass_and_for_a_start_hole():
+    part = slotted(0.38, "steel")
+    assert not of("cut.path", findings(part, "wire", 0.355))
+    (told,) = of("cut.path", findings(part, "wire", 0.355, passes=3))
+    assert "0.455 mm, which the wire takes with D1, is wider than the slot" in told.message
+    own = float(told.remedy.partition("cut.kerf = ")[2].split()[0])
+    assert not of("cut.path", findings(part, "wire", own, passes=3))
+    given = of("cut.path", findings(part, "wire", 0.355, passes=1, offsets=[0.2]))
+    assert "cut.kerf" not in given[0].remedy, "offsets that are given do not follow it"
+
+
+@pytest.mark.parametrize(
+    ("width", "remedy"), [(2.1, ""), (1.85, "set cut.start_hole = 0.8"), (0.9, "draw it 1.3 mm wide")]
+)
+def test_an_opening_without_room_for_a_start_hole_is_told_before_it_is_threaded(width, remedy):
+    found = of("cut.start-hole", findings(slotted(width, "steel", through=False), "wire", 0.3))
+    assert [remedy in one.remedy for one in found] == ([True] if remedy else [])
+    if "start_hole" in remedy:
+        change = found[0].proposed[0]["cut.start_hole"]
+        part = slotted(width, "steel", through=False)
+        assert not of("cut.start-hole", findings(part, "wire", 0.3, start_hole=change))
+
+
+def test_a_slot_is_told_of_a_process_that_is_not_chosen(tmp_path):
+    """Its own kerf counts, and not the one that the file gives for the chosen process."""
+    text = GENEVA.read_text(encoding="utf-8")
+    file = tmp_path / "g.toml"
+    file.write_text('process = "wire"\n' + text + "\n[cut]\nkerf = 0.1\n", encoding="utf-8")
+    with Build(file, host()) as build:
+        cutting, part = Cutting(build), next(one for one in build.parts if one.name == "wheel")
+        kinds = processes()
+        assert cutting.kerf(kinds["wire"], part).width == 0.1
+        assert cutting.kerf(kinds["waterjet"], part, chosen=False) == kerf_of(
+            "waterjet", part.material, part.thickness
+        )
+
+
+@pytest.mark.parametrize(
+    ("process", "more", "why"),
+    [
+        ("wire", {}, "the control moves the wire aside for one part"),
+        ("plasma", {}, "its cut is square on one side alone"),
+        ("service", {}, "each drawing has one part"),
+        ("laser", {"joints": 2}, "2 micro-joints"),
+    ],
+)
+def test_common_lines_that_make_no_sense_are_refused_by_name(tmp_path, process, more, why):
+    head = f'process = "{process}"\n'
+    keys = "".join(f"{key} = {value}\n" for key, value in more.items())
+    text = GENEVA.read_text(encoding="utf-8").replace('material = "aluminium"', 'material = "steel"')
+    for common, told in (("true", 1), ("false", 0)):
+        file = tmp_path / f"g{told}.toml"
+        file.write_text(
+            f"{head}{text}\n[cut]\n{keys}common_lines = {common}\nlaser = 'fibre'\n", encoding="utf-8"
+        )
+        with Build(file, host()) as build:
+            found = of("cut.common-lines", Cutting(build).findings)
+        assert len(found) == told
+        assert all(why in one.message and "cut.common_lines = false" in one.remedy for one in found)
+
+
+def test_common_lines_that_no_parts_share_are_a_warning(tmp_path):
+    file = tmp_path / "g.toml"
+    text = GENEVA.read_text(encoding="utf-8")
+    file.write_text(
+        f'process = "waterjet"\n{text}\n[cut]\ncommon_lines = true\nsmall_holes = "spot"\n', encoding="utf-8"
+    )
+    with Build(file, host()) as build:
+        (told,) = of("cut.common-lines", Cutting(build).findings)
+    assert told.severity is Severity.WARNING
+
+
 @pytest.mark.parametrize(("off", "told"), [(2.2, True), (2.0, True), (1.0, False)])
 def test_thin_webs_are_told(off, told):
     """3 mm of acrylic want 2.1 mm between a hole and the rim."""
@@ -166,7 +304,7 @@ def test_a_fit_that_no_kerf_holds_is_reamed_bushed_or_refused():
     assert note.severity is Severity.NOTE
     cut = cut_part(part, processes()["fibre-laser"], PLAIN)
     assert 2 * cut.outline.inner[0].segments[0].radius == pytest.approx(8.0075 - 0.5, abs=1e-3)
-    assert cut.finishing == ("ream to 8 H7 (0/+0.015): seat at (0, 0)",)
+    assert cut.finishing[-1:] == ("ream to 8 H7 (0/+0.015): seat at (0, 0)",)
     bushed = cut_part(part, processes()["fibre-laser"], CutSettings(fits="bush"))
     assert 2 * bushed.outline.inner[0].segments[0].radius == pytest.approx(11.0)
     assert bushed.finishing[0].startswith("bond a bush of 11 x 8 H7")
@@ -224,7 +362,9 @@ def test_aluminium_is_not_cut_by_a_co2_laser_and_the_line_to_type_says_what_does
         told = errors(ChosenProcesses().findings(build))
         assert len(told) == 3
         assert "bare metal reflects the beam" in told[0].message
-        assert 'process = { default = "laser", parts.wheel = "waterjet" }' in told[0].remedy
+        assert told[0].remedy.startswith(
+            'process = { default = "laser", parts.wheel = "mill" }, or "print" or '
+        )
         assert not build.made(Cutting).programs
 
 

@@ -11,10 +11,12 @@ from mechwright.contracts.details import Engraving
 from mechwright.contracts.part import Part
 from mechwright.geometry import Outline
 from mechwright_cut.jobs import cut_part
+from mechwright_cut.rules.part_rules import part_findings
+from mechwright_cut.rules.service_rules import service_findings
 from mechwright_cut.service.checker import Drawn, faults
 from mechwright_cut.service.drawing import service_drawing
-from mechwright_cut.service.services import services
 from mechwright_cut.settings.cut_settings import CutSettings
+from mechwright_cut.settings.services import services
 
 MARK = Engraving("mark", (((-5.0, 6.0), (5.0, 6.0)),), 0.1)
 PARTS = {
@@ -175,3 +177,60 @@ def test_a_service_names_what_it_refuses():
             services()["acute-laser"],
         )[0]
     )
+
+
+@pytest.mark.parametrize(
+    ("service", "part", "said", "other"),
+    [
+        (
+            "acute-laser",
+            plate("p", bore(5, (-9, 0)), size=(24, 16, 3)),
+            "0.50 mm stay between two cuts",
+            "sendcutsend",
+        ),
+        (
+            "acute-laser",
+            plate("p", size=(12, 9, 2)),
+            "parts of 15 mm and more, and it has 12.00",
+            "sendcutsend",
+        ),
+        (
+            "snapcut",
+            plate("p", rounded_box(3.2, 3, 1.5, clockwise=True)),
+            "is a hole of 3.12 mm",
+            "sendcutsend",
+        ),
+        ("snapcut", plate("p", bore(8, (-7.2, 0)), size=(24, 16, 3)), "0.80 mm stay", "sendcutsend"),
+    ],
+)
+def test_what_a_service_does_not_take_names_one_that_does(service, part, said, other):
+    settings = CutSettings(service=service)
+    cut = cut_part(part, settings.kind("service", "acrylic"), settings)
+    (told,) = service_findings(cut, services()[service], jet=False)
+    assert said in told.message
+    assert told.proposed == ({"cut.service": other},)
+    assert list(service_findings(cut, services()[other], jet=False)) == []
+    drawn = Drawn(cut.outline, 3.0, services()[service].offset("acrylic"))
+    assert faults(service_drawing(cut, services()[service]), drawn, services()[service]), (
+        "nor does the checker"
+    )
+
+
+@pytest.mark.parametrize(
+    ("service", "by", "least"),
+    [
+        ("snapcut", "laser", 4.5),
+        ("acute-laser", "laser", 2.1),
+        ("sendcutsend", "laser", 1.5),
+        ("sendcutsend", "waterjet", 3.0),
+    ],
+)
+def test_the_least_hole_is_that_of_the_service_and_of_its_process(service, by, least):
+    settings = CutSettings(service=service, by=by)
+    kind = settings.kind("service", "steel")
+    assert kind.least_hole(3.0) == pytest.approx(least)
+    assert services()[service].words in kind.words
+    for diameter, small in ((least + 0.1, 0), (least - 0.1, 1)):
+        cut = cut_part(plate("p", bore(diameter), material="steel"), kind, settings)
+        found = [one for one in part_findings(cut, kind, 0.2, settings) if one.code == "cut.hole"]
+        assert len(found) == small

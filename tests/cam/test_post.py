@@ -17,9 +17,9 @@ from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.linuxcnc import LinuxCnc
 from mechwright_cam.controls.mach3 import Mach3
 from mechwright_cam.controls.reading import Kind
-from mechwright_cam.controls.writing.text import COMMENT_WIDTH, comment_lines
 from mechwright_cam.controls.writing.writer import AGREEING, Writer
 from mechwright_cam.program.moves import Drill, Feed, FeedArc, Operation, Pause, Program, Rapid, ToolSection
+from mechwright_plane.text import COMMENT_WIDTH, comment_lines
 
 POST = LinuxCnc()
 

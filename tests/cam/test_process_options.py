@@ -67,11 +67,35 @@ def test_milling_is_estimated_without_a_program(options, part, proof):
 
 def test_a_feed_that_nobody_has_given_is_no_time(options, tmp_path):
     assert options["wheel", "waterjet"].seconds is None
+    lines = options_table(list(options.values()))
+    for process, said in (
+        ("waterjet", "by cut.feed"),
+        ("wire", "by cut.wire_rate"),
+        ("service", "by the service"),
+    ):
+        assert options["wheel", process].untimed == said
+        line = next(line for line in lines if line.split()[:2] == ["wheel", process])
+        assert said in line or "refused" in line
     with Build(design(tmp_path, more="[cut]\nfeed = 100\npierce = 6\npasses = 2"), host()) as build:
         found = {(one.part, one.process): one for one in process_options(build)}
         outline = next(part.outline for part in build.parts if part.name == "wheel")
+    assert found["wheel", "waterjet"].untimed == ""
     wanted = 2 * (60 * outline.polygon().length / 100 + 2 * 6)
     assert found["wheel", "waterjet"].seconds == pytest.approx(wanted)
+
+
+def test_a_wire_takes_the_time_of_the_area_of_its_walls(tmp_path):
+    """600 mm² a minute over two passes; an inch is 25.4 mm."""
+    times = []
+    for rate in ("300", '"0.93 in^2/min"'):
+        more = f"[cut]\nwire_rate = {rate}\npasses = 2"
+        with Build(design(tmp_path, more=more), host()) as build:
+            found = {(one.part, one.process): one for one in process_options(build)}
+            part = next(part for part in build.parts if part.name == "wheel")
+        times.append(found["wheel", "wire"].seconds)
+    walls = part.outline.polygon().length * part.thickness
+    assert times[0] == pytest.approx(2 * 60 * walls / 300)
+    assert times[1] == pytest.approx(2 * 60 * walls / (0.93 * 645.16))
 
 
 def test_a_plate_that_no_mill_reaches_is_not_milled(tmp_path):
@@ -126,7 +150,17 @@ def test_check_says_it_in_json_with_figures_and_where_a_process_is_named(tmp_pat
     assert "all plates could also" not in out
     _, out, _ = command_line("check", plain, "--json")
     rows = json.loads(out)["processes"]
-    assert {"part", "process", "chosen", "able", "refused", "remedies", "seconds", "loses"} == rows[0].keys()
+    assert {
+        "part",
+        "process",
+        "chosen",
+        "able",
+        "refused",
+        "remedies",
+        "seconds",
+        "loses",
+        "untimed",
+    } == rows[0].keys()
     _, out, _ = command_line("check", plain, "--json", "--to", "parts")
     assert "processes" not in json.loads(out)
     named = design(tmp_path, 'process = "wire"')

@@ -28,7 +28,7 @@ READS_ITSELF = {
     "core/mechwright/studies/checks.py",
     "core/mechwright/studies/fingerprint.py",
     "cam/mechwright_cad/live/server.py",
-    "cam/mechwright_cut/service/services.py",
+    "cam/mechwright_cut/settings/services.py",
     "cam/mechwright_cut/settings/figures.py",
 }
 APART = {"addon", "mechwright_check", "testing"}

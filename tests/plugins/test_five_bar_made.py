@@ -100,9 +100,26 @@ def test_a_bare_bore_as_made_too_small_is_refused_with_a_fit_that_works():
     assert (fault.code, fault.parameter) == ("five-bar.as-made", "running_fit")
 
 
-def test_clamped_pivots_are_not_judged():
+def test_a_coupler_that_is_set_counts_as_drawn():
+    """Studs turn in crank and rocker, whose bores matter; the coupler's length is set by its scales."""
     plates = {name: [Bored()] for name in ("ground", "crank", "coupler", "rocker", "arm")}
-    assert FiveBars().as_made(example("five-bar-slots"), plates).figures == ()
+    params = example("five-bar-slots").model_copy(update={"bushing_wall": 0.0})
+    point, room = FiveBars().as_made(params, plates).figures
+    assert point.made == pytest.approx(point.design, rel=1e-9)
+    assert point.rule.endswith("A and C set as their scales say")
+    assert room.made == pytest.approx(params.running_fit)
+    for name, less in (("coupler", False), ("crank", True), ("rocker", True)):
+        made = FiveBars().as_made(params, {**plates, name: [Bored(-0.05)]})
+        assert bool(made.findings) == less
+        assert (made.figures[0].made != point.made) == less
+
+
+def test_a_coupler_with_bores_counts_as_made():
+    params = example("five-bar-three-phases").model_copy(update={"bushing_wall": 0.0})
+    plates = {name: [Bored()] for name in ("ground", "crank", "coupler", "rocker", "arm")}
+    first = FiveBars().as_made(params, plates).figures[0]
+    assert "scales" not in first.rule
+    assert FiveBars().as_made(params, {**plates, "coupler": [Bored(0.1)]}).figures[0].made > first.made
 
 
 def test_teeth_bear_by_the_formula_and_too_much_is_told_with_what_helps():

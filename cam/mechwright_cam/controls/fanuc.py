@@ -8,11 +8,11 @@ from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import FANUC_OFFSETS, G54_TO_G59, DOffset, OffsetTables
 from mechwright_cam.controls.words import fanuc as words
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
-from mechwright_cam.controls.writing.text import comment_lines
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Tap
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import comment_lines
 
 OFFSETS_NUMBER = 7999
 """O number of the file of tool lengths: from 8000 on, programs are commonly locked against editing."""

@@ -17,13 +17,12 @@ from mechwright_cam.program.touches import ToolTouches, Touches
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import GRBL_COMMENT_WIDTH, GRBL_REALTIME
 
 BELOW_SWITCH = -2.0
 """Machine Z of a retract, mm: the pull-off of homing ($27) is 1 mm as it comes."""
 MOST_TURNS = 4
 """Turns of a tool, on average, for which names of files are compared before anything is planned."""
-_REALTIME = "?!~"
-"""Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
 SENDERS = (
     "UGS, bCNC, gSender and OpenBuilds CONTROL take the files as they are, one after the other. None has "
     "a tool change (M6), so their windows for it stay shut.",
@@ -51,7 +50,7 @@ class Grbl(Measuring, GcodeControl):
             longest=79,  # the buffer has 80 bytes, and the last of them ends the line
             counts_code=True,
             ascii_comments=True,  # it obeys bytes from 128 up wherever they stand: overrides of feed, speed
-            forbidden=_REALTIME,
+            forbidden=GRBL_REALTIME,
             digits=8,  # MAX_INT_DIGITS
             percent=False,
         ),
@@ -67,8 +66,8 @@ class Grbl(Measuring, GcodeControl):
         corners=EXACT,  # the path is always followed: junction deviation ($11) slows down, and rounds nothing
     )
     offsets = OffsetTables(lengths=False, length_word="G43.1", d=None)
-    forbidden = "%$;" + _REALTIME
-    comment_width = 58  # senders and pendants for it show, or take, lines of 60
+    forbidden = "%$;" + GRBL_REALTIME
+    comment_width = GRBL_COMMENT_WIDTH
     highest_tool = 255
     by_hand = "files"
     takes_back = "type G92.1 before zero is set"

@@ -13,11 +13,11 @@ from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
 from mechwright_cam.controls.reading import klartext
 from mechwright_cam.controls.words import klartext as words
 from mechwright_cam.controls.writing.klartext import KlartextWriter, numbered, signed
-from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import comment_lines, floored, number
 
 if TYPE_CHECKING:
     from mechwright_cam.shop.machine import Machine

@@ -14,12 +14,12 @@ from mechwright_cam.controls.reading.macros import Macros
 from mechwright_cam.controls.words import linuxcnc as words
 from mechwright_cam.controls.writing.drilling import EVERY_WAY
 from mechwright_cam.controls.writing.measuring import Measuring
-from mechwright_cam.controls.writing.text import comment_lines, floored, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Rapid, Tap
 from mechwright_cam.shop.formats.linuxcnc import Row, table_text
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import LINUXCNC_ACTIVE, comment_lines, floored, number
 
 IN_INCHES = 6
 """Decimals of a tolerance in inches: less would make it a third larger or smaller."""
@@ -61,10 +61,7 @@ class LinuxCnc(Measuring, GcodeControl):
     taps_again = True
     tap_needs = "G33.1 needs an encoder on the spindle, whose index is wired to spindle.0.index-enable."
     tolerances = (ROUGH, TOLERANCES.arc_fit, 0.0)
-    active_comments = (
-        *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
-        *("PROBEOPEN", "PROBECLOSE", "PY", "PYRUN", "PYRELOAD", "ABORT"),
-    )
+    active_comments = LINUXCNC_ACTIVE
 
     @property
     def lookahead(self) -> Lookahead:

@@ -10,11 +10,11 @@ from mechwright_cam.controls.gcode import GcodeControl
 from mechwright_cam.controls.offsets import OffsetTables, WorkOffsets
 from mechwright_cam.controls.reading import sinumerik
 from mechwright_cam.controls.words import sinumerik as words
-from mechwright_cam.controls.writing.text import comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Program, ToolSection
 from mechwright_cam.shop.settings import CamSettings
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import comment_lines, number
 
 G54_TO_G57 = WorkOffsets("G54 to G57", r"G(5[4-7])", "$P_UIFR[{}]", 53)
 

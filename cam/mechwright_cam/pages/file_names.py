@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mechwright.contracts.finding import errors
 from mechwright.pipeline import Build, FileName
+from mechwright.pipeline.page import unless_forbidden
 from mechwright_cam.planning.nesting import NEST_NAME
 from mechwright_cam.setup.probing import PROBE
 from mechwright_cam.setup.setter import LENGTHS, measures_tools
@@ -19,8 +19,7 @@ def machined(build: Build) -> "Machining | None":
     """The jobs of a build, with their control; None where a finding forbids its programs."""
     from mechwright_cam.machining import Machining
 
-    machining = build.made(Machining)
-    return None if errors(machining.findings) else machining
+    return unless_forbidden(build.made(Machining))
 
 
 def named(machining: "Machining", job: "Job", stem: str, end: str, what: str = "") -> FileName:

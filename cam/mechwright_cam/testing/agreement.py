@@ -7,10 +7,10 @@ import numpy as np
 
 from mechwright_cam.controls.contract import Control
 from mechwright_cam.controls.reading.run import Kind, Run
-from mechwright_cam.controls.writing.text import number
 from mechwright_cam.pages.setup_sheet import setup_html
 from mechwright_cam.program.moves import Drill, Pause, Program, Rapid, Tap, ToolSection
 from mechwright_cam.setup.job import Job
+from mechwright_plane.text import number
 
 OTHER = {"radius": "diameter", "diameter": "radius"}
 _SLACK = 1.01

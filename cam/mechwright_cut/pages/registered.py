@@ -3,8 +3,8 @@
 import json
 from typing import TYPE_CHECKING
 
-from mechwright.contracts.finding import errors
 from mechwright.pipeline import Build, FileName, Page, Wanted
+from mechwright.pipeline.page import unless_forbidden
 
 if TYPE_CHECKING:
     from mechwright_cut.cutting import Cutting
@@ -19,7 +19,7 @@ def _cutting(build: Build) -> "Cutting | None":
     from mechwright_cut.cutting import Cutting
 
     cutting = build.made(Cutting)
-    return None if not cutting.plates or errors(cutting.findings) else cutting
+    return unless_forbidden(cutting) if cutting.plates else None
 
 
 class CutPrograms(Page):

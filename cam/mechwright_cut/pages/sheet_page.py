@@ -9,11 +9,12 @@ from markupsafe import Markup
 from mechwright.contracts.materials import MATERIALS
 from mechwright.output.svg import number, path, place
 from mechwright.output.templates import templates
+from mechwright_cut.cuts import Contour, WireContour
 from mechwright_cut.cutting import Cutting, ProvenCut
 from mechwright_cut.service.drawing import SUFFIX
-from mechwright_cut.service.services import services
+from mechwright_cut.settings.services import services
 
-ROLES = {"engrave": "mark", "inside": "opening", "outside": "outside"}
+ROLES = {"engrave": "mark", "inside": "opening", "common": "common line", "outside": "outside"}
 AROUND = 5.0
 """Of the sheet that a picture shows around the parts, mm."""
 FINE = 0.3
@@ -59,22 +60,25 @@ def _size(bounds: tuple[float, float, float, float]) -> str:
     return f"{x1 - x0:.1f} × {y1 - y0:.1f}"
 
 
-def minutes(item: ProvenCut) -> float:
-    """Time of the beam, min: ways at their feeds, and pierces."""
+def minutes(item: ProvenCut) -> float | None:
+    """Time, min: of a beam by its feeds and pierces, of a wire by the rate of its machine, or else None."""
     settings = item.job.settings
+    if item.suffix == ".iso":
+        walls = item.job.thickness * sum(one.length for one in item.contours)
+        return None if settings.wire_rate is None else walls / settings.wire_rate
     marks = sum(one.length for one in item.contours if one.role == "engrave")
     cuts = sum(one.length for one in item.contours if one.role != "engrave")
-    pierces = sum(len(one.strokes) for one in item.contours if one.role != "engrave")
+    pierces = sum(one.pierces for one in item.contours if isinstance(one, Contour))
     again = settings.passes * (cuts / settings.feed + pierces * settings.pierce / 60)
     return again + marks / settings.engrave_feed
 
 
 def _sheet(item: ProvenCut) -> dict[str, Any]:
-    job = item.job
+    job, time = item.job, minutes(item)
     return {
         "name": item.name,
         "file": item.name + item.suffix,
-        "minutes": "" if item.suffix == ".iso" else f", {minutes(item):.1f} min",
+        "minutes": "" if time is None else f", {time:.1f} min",
         "process": job.process.words,
         "material": _ordered(job.material),
         "thickness": f"{job.thickness:g}",
@@ -115,6 +119,11 @@ def _steps(item: ProvenCut) -> list[str]:
         )
     if laser:
         lines.append("Switch on air and extraction. Stay beside it until the last piece is cold.")
+    if job.common:
+        lines.append(
+            f"{len(job.common)} common lines are cut before the outsides: each is an edge of two parts. Its "
+            "cut is one kerf wide, so that another kerf changes both parts."
+        )
     if settings.joints and job.process.joints:
         lines.append(f"Each part hangs on {settings.joints} micro-joints: break it out, and file them off.")
     if job.process.taper >= 0.05:
@@ -139,7 +148,7 @@ def _picture(item: ProvenCut) -> str:
         for stroke in contour.strokes:
             points = stroke.points(max(FINE, math.sqrt(stroke.length) / 20)).tolist()
             drawn.append(f'<path class="{kind}" d="{path(points)}"/>')
-        if kind == "beam":
+        if kind == "beam" and (isinstance(contour, WireContour) or contour.pierces):
             x, y = place(*contour.start).split(",")
             drawn.append(f'<circle class="pierce" cx="{x}" cy="{y}" r="0.8"/>')
     return (

@@ -11,14 +11,13 @@ from mechwright.arrays import Array
 from mechwright.errors import GeometryError
 from mechwright.geometry import Loop
 from mechwright.geometry.segments import Point
+from mechwright_cut.cuts import WORKING
 from mechwright_cut.jobs import PIERCE
 from mechwright_cut.paths.parallels import headings, onward, turned_to
 from mechwright_plane.leads import half_circles
 from mechwright_plane.path import Path, arc, line, printed
 from mechwright_plane.places import candidates
 
-WORKING = frozenset({"flank", "slot", "lobe", "dwell", "cam", "side"})
-"""Names of segments on which the mark of a lead would be felt."""
 SHORTER = (1.0, 0.6, 0.4, 0.25, 0.15)
 """Leads are tried in these shares of the wanted radius, the roomy ones first."""
 CLOSE = 1e-3

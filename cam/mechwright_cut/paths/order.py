@@ -1,7 +1,8 @@
 """The contours of a sheet in the order in which they are cut.
 
-Marks come first, then every opening, then every outside: small before large, so that what is cut still hangs
-in as much of the sheet as possible. Among equals the next one is far from the last, which spreads the heat.
+Marks come first, then every opening, then every line that two parts share, then every outside: small before
+large, so that what is cut still hangs in as much of the sheet as possible. Among equals the next one is far
+from the last, which spreads the heat.
 """
 
 import math
@@ -12,6 +13,7 @@ from mechwright.errors import GeometryError
 from mechwright.geometry import Loop
 from mechwright_cut.cuts import Contour, Role
 from mechwright_cut.jobs import CutJob, CutPiece, lead_radius, target
+from mechwright_cut.paths.common_lines import common_contours, outside_contour
 from mechwright_cut.paths.entries import Waste, divided, entered, joint_places
 from mechwright_cut.paths.parallels import beam_path
 from mechwright_plane.path import polyline
@@ -27,12 +29,15 @@ def contours(job: CutJob) -> list[Contour]:
         for piece in job.pieces
         for number, loop in enumerate(piece.outline.inner, start=1)
     ]
-    outer = [
-        (loop, _contour(job, loop, "outside", f"{piece.label} outside", waste))
-        for piece in job.pieces
-        for loop in (piece.outline.outer,)
-    ]
-    return [*marks, *_small_first(inner), *_small_first(outer)]
+    outer = [(piece.outline.outer, _outside(job, number, waste)) for number, piece in enumerate(job.pieces)]
+    return [*marks, *_small_first(inner), *common_contours(job, waste), *_small_first(outer)]
+
+
+def _outside(job: CutJob, number: int, waste: Waste) -> Contour:
+    if shared := [line for line in job.common if number in line.pieces]:
+        return outside_contour(job, number, shared)
+    piece = job.pieces[number]
+    return _contour(job, piece.outline.outer, "outside", f"{piece.label} outside", waste)
 
 
 def _marks(job: CutJob, piece: CutPiece) -> list[Contour]:

@@ -40,7 +40,15 @@ def beam_path(loop: Loop, kerf: float, outside: bool, name: str) -> Path:
             raise GeometryError(f"{name}: the kerf of {kerf:g} mm is as wide as the hole of {hole:g} mm")
         start = (first.centre[0] + radius, first.centre[1])
         return circle(first.centre, radius, start, ccw=not outside)
-    shape = grow(shapely.Polygon(loop.flatten()), half)
+    return fit(beam_ring(loop, kerf, outside, name), FIT)
+
+
+def beam_ring(loop: Loop, kerf: float, outside: bool, name: str) -> Array:
+    """The same way as a closed polyline (n + 1, 2), of a loop that is no circle.
+
+    Raises GeometryError as :func:`beam_path` does.
+    """
+    shape = grow(shapely.Polygon(loop.flatten()), kerf / 2 if outside else -kerf / 2)
     found = rings(shape, climb=outside)
     if len(found) != 1 or len(polygons(shape)) != 1:
         what = "a slot around it" if outside else "it, or a slot in it"
@@ -48,7 +56,7 @@ def beam_path(loop: Loop, kerf: float, outside: bool, name: str) -> Path:
     if at := unreached(loop, found[0], kerf):
         x, y = at
         raise GeometryError(f"{name}: the kerf of {kerf:g} mm is wider than the slot at ({x:.2f}, {y:.2f})")
-    return fit(found[0], FIT)
+    return found[0]
 
 
 def unreached(loop: Loop, ring: Array, kerf: float) -> Point | None:

@@ -88,16 +88,16 @@ def _contour(job: CutJob, loop: Loop, role: Role, name: str, kept: shapely.Geome
     return _passed(name, role, hole, main, tab, OFF * registers[0], len(registers))
 
 
+def widest_circle(loop: Loop) -> shapely.LineString:
+    """From the middle of the widest circle in an opening to its wall."""
+    return shapely.maximum_inscribed_circle(shapely.Polygon(loop.flatten()))
+
+
 def _inside(whole: Path, loop: Loop, room: float, name: str) -> tuple[Point, float]:
     """The middle of an opening, and the place on its contour that is next to it."""
-    opening = shapely.Polygon(loop.flatten())
-    widest = shapely.maximum_inscribed_circle(opening)
+    widest = widest_circle(loop)
     if widest.length < room:
-        across, smaller = 2 * widest.length, math.floor(20 * (widest.length - NARROW)) / 10
-        remedy = f"set cut.start_hole = {smaller:g}" if smaller >= LEAST_DRILL else "make it larger"
-        raise GeometryError(
-            f"{name}: a start hole needs {2 * room:g} mm across, and the opening has {across:.2f}; {remedy}"
-        )
+        raise GeometryError(f"{name}: a start hole needs {2 * room:g} mm across, and it has less")
     x, y = shapely.get_coordinates(widest)[0].tolist()
     ways, points, _ = candidates(whole)
     order = np.lexsort((np.round(np.hypot(*(points - (x, y)).T), 6), working(loop, points)))

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 
 from mechwright_cut.cuts import Contour
 from mechwright_cut.jobs import CutJob
-from mechwright_cut.programs.words import at, comment, moves, number, title
+from mechwright_cut.programs.words import at, comment, moves, title
+from mechwright_plane.text import number
 
 
 def grbl_laser(job: CutJob, contours: Sequence[Contour]) -> str:
@@ -23,12 +24,13 @@ def grbl_laser(job: CutJob, contours: Sequence[Contour]) -> str:
     for contour in contours:
         mark = contour.role == "engrave"
         power, feed = settings.marking if mark else settings.cutting
-        lines += [comment(contour.name), "M4 S0" if mark or not settings.pierce else "M3 S0"]
+        pierce = settings.pierce if contour.pierces else 0.0
+        lines += [comment(contour.name), "M3 S0" if pierce else "M4 S0"]
         for _ in range(1 if mark else settings.passes):
             for stroke in contour.strokes:
                 lines.append(f"G0 {at(stroke.start)}")
-                if settings.pierce and not mark:
-                    lines += [f"G1 S{number(power)} F{number(feed)}", f"G4 P{number(settings.pierce)}"]
+                if pierce:
+                    lines += [f"G1 S{number(power)} F{number(feed)}", f"G4 P{number(pierce)}"]
                 first, *rest = moves(stroke)
                 lines += [f"{first} S{number(power)} F{number(feed)}", *rest]
         lines.append("M5 S0")

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 
 from mechwright_cut.cuts import WireContour, WirePass
 from mechwright_cut.jobs import CutJob
-from mechwright_cut.programs.words import at, comment, moves, number, title
+from mechwright_cut.programs.words import at, comment, moves, title
+from mechwright_plane.text import number
 
 
 def iso_wire(job: CutJob, contours: Sequence[WireContour]) -> str:

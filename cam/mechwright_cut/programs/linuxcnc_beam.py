@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from mechwright_cut.cuts import Contour
 from mechwright_cut.jobs import CutJob
-from mechwright_cut.programs.words import at, comment, moves, number, title
+from mechwright_cut.programs.words import at, comment, moves, title
+from mechwright_plane.text import number
 
 BLEND = 0.002
 """Largest deviation from the path in corners, mm: P of G64."""
@@ -27,6 +28,6 @@ def linuxcnc_beam(job: CutJob, contours: Sequence[Contour]) -> str:
             for stroke in contour.strokes:
                 first, *rest = moves(stroke)
                 lines += [f"G0 {at(stroke.start)}", on]
-                lines += [f"G4 P{number(settings.pierce)}"] if settings.pierce and not mark else []
+                lines += [f"G4 P{number(settings.pierce)}"] if settings.pierce and contour.pierces else []
                 lines += [f"{first} F{number(feed)}", *rest, off]
     return "\n".join([*lines, "G0 X0 Y0", "M2"]) + "\n"

@@ -1,22 +1,12 @@
 """Words that programs of all controls share."""
 
-import re
-
 from mechwright.geometry.segments import Point
 from mechwright_cut.jobs import CutJob
-from mechwright_plane.path import DECIMALS, Cut, Path
+from mechwright_plane.path import Cut, Path
+from mechwright_plane.text import GRBL_COMMENT_WIDTH, GRBL_REALTIME, LINUXCNC_ACTIVE, comment_lines, number
 
-LONGEST = 58
-"""Characters of a comment that every sender lets pass."""
-
-
-def number(value: float) -> str:
-    """A number without a tail of zeros.
-
-    >>> number(-0.00001), number(12.5), number(600)
-    ('0', '12.5', '600')
-    """
-    return f"{round(value, DECIMALS) + 0.0:.{DECIMALS}f}".rstrip("0").rstrip(".")
+UNSAFE = "%;" + GRBL_REALTIME
+"""Characters that a control or a sender obeys or chokes on even in a comment."""
 
 
 def at(point: Point) -> str:
@@ -38,12 +28,12 @@ def moves(path: Path) -> list[str]:
 
 
 def comment(text: str) -> str:
-    """A comment that every sender lets pass: short, and of plain characters.
+    """A comment that every control and sender lets pass, of one line.
 
-    >>> comment("wheel (2): 3 mm × 5")
-    '(wheel  2 : 3 mm   5)'
+    >>> comment("wheel (2): 3 mm × 5"), comment("logopen,file")
+    ('(wheel [2]: 3 mm x 5)', "('logopen,file)")
     """
-    return f"({re.sub(r'[^A-Za-z0-9 .,:=/+_$-]', ' ', text)[:LONGEST]})"
+    return f"({next(iter(comment_lines(text, LINUXCNC_ACTIVE, UNSAFE, width=GRBL_COMMENT_WIDTH)), '')})"
 
 
 def title(job: CutJob) -> list[str]:

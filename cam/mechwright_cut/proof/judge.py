@@ -8,6 +8,7 @@ loose
     Cut out of the sheet, so that it may have moved.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -16,7 +17,7 @@ import numpy as np
 import shapely
 
 from mechwright.errors import ProgramError
-from mechwright.geometry import Outline
+from mechwright.geometry import Loop, Outline
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES
 from mechwright_cut.proof.reading import Motion, Reading, read_beam
@@ -49,6 +50,8 @@ class Question:
 
     ``through`` and ``mark`` are the S words of a cut and of a mark, ``refused`` why the material must not be
     cut, ``passes`` how often each contour is run, ``taper`` by how much the faces of a piece may differ.
+    ``common`` says that pieces may share a cut: then a run may begin in one, and graze what is loose by no
+    more than a wall may be off.
     """
 
     control: str
@@ -62,6 +65,7 @@ class Question:
     joint_width: float = 0.0
     taper: float = 0.0
     refused: str = ""
+    common: bool = False
 
 
 @dataclass(frozen=True)
@@ -168,12 +172,15 @@ def _pieces(reading: Reading, asked: Question) -> list[Check]:
         key = (first.start, run[-1].end)
         seen[key] = seen.get(key, 0) + 1
         again = seen[key] > 1
-        hit = [one for one in loose if not again and shapely.intersection(one, taken).area > SPECK]
-        late += [f"line {first.line}: cuts into what is loose" for _ in hit[:1]]
         if again:
             continue
-        pierced += _pierce(first, every, asked)
-        felt += _joins(line, first, asked)
+        grazed = shapely.buffer(taken, -WALL) if asked.common else taken
+        hit = [one for one in loose if shapely.intersection(one, grazed).area > SPECK]
+        late += [f"line {first.line}: cuts into what is loose" for _ in hit[:1]]
+        loose = [shapely.difference(one, taken) for one in loose] if asked.common else loose
+        opened = asked.common and _is_open(first, [left, *loose], asked)
+        pierced += [] if opened else _pierce(first, every, asked)
+        felt += _begins(first, asked) if opened else _joins(line, first, asked)
         left = shapely.difference(left, taken)
         parts = list(shapely.get_parts(left))
         loose += [one for one in parts if not shapely.intersects(one, edge) and one.area > SPECK]
@@ -216,6 +223,29 @@ def _pierce(first: Motion, every: shapely.Geometry, asked: Question) -> list[str
     return [f"line {first.line}: the pierce at X{x:g} Y{y:g} is {off:.3f} mm off a wall, not {room:.3f}"]
 
 
+def _is_open(first: Motion, solid: Sequence[shapely.Geometry], asked: Question) -> bool:
+    """Whether a run begins in a cut: nothing is left under the beam, so that nothing is pierced."""
+    beam = shapely.buffer(shapely.Point(first.start), asked.kerf / 2 - WALL)
+    return not any(shapely.intersects(one, beam) for one in solid)
+
+
+def _begins(first: Motion, asked: Question) -> list[str]:
+    """A run that begins in a cut begins beside no segment that works."""
+    start = shapely.Point(first.start)
+    for one in asked.pieces:
+        for loop in one.outline.loops:
+            if at := _felt_at(loop, start, asked.kerf / 2 + WALL):
+                return [f"line {first.line}: a cut beside {one.name} begins on a {at}"]
+    return []
+
+
+def _felt_at(loop: Loop, at: shapely.Point, reach: float = math.inf) -> str:
+    """The tag of the segment next to a place within reach, mm, if it works; at a corner both have to."""
+    off = [float(shapely.distance(shapely.LineString(s.flatten(0.01)), at)) for s in loop.segments]
+    near = [s.tag for s, far in zip(loop.segments, off, strict=True) if far <= min(off) + WALL]
+    return loop.segments[off.index(min(off))].tag if min(off) <= reach and FELT.issuperset(near) else ""
+
+
 def _is_middle(first: Motion, asked: Question) -> bool:
     for one in asked.pieces:
         for loop in one.outline.inner:
@@ -240,10 +270,7 @@ def _joins(line: shapely.LineString, first: Motion, asked: Question) -> list[str
                 continue
             ends = [shapely.Point(shapely.get_coordinates(part)[0]) for part in shapely.get_parts(near)]
             at = min(ends, key=lambda end: shapely.line_locate_point(line, end))
-            off = [shapely.distance(shapely.LineString(s.flatten(0.01)), at) for s in loop.segments]
-            # At a corner it meets both neighbours.
-            if all(flag for flag, one_off in zip(flags, off, strict=True) if one_off <= min(off) + WALL):
-                tag = loop.segments[off.index(min(off))].tag
+            if tag := _felt_at(loop, at):
                 return [f"line {first.line}: the lead meets {one.name} on a {tag}"]
     return []
 

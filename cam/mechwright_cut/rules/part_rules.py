@@ -13,8 +13,9 @@ from mechwright.geometry import Arc
 from mechwright.geometry.segments import Point
 from mechwright.tolerances import TOLERANCES, falls_short
 from mechwright_cut.jobs import CutPart, fitted_bores, keeps_limits, recesses
+from mechwright_cut.rules.slots import slot_findings
 from mechwright_cut.settings.cut_settings import CutSettings
-from mechwright_cut.settings.figures import Process, able, greatest_thickness, refusal
+from mechwright_cut.settings.figures import Process, able, greatest_thickness, heat_of, refusal
 
 FELT = 0.05
 """A corner that keeps less than this, mm, is not worth a word."""
@@ -28,7 +29,8 @@ def refused(part: Part, process: Process, settings: CutSettings, *, service: boo
     How thick a ``service`` cuts is on its own list.
     """
     if names := recesses(part):
-        return f"{', '.join(names[:3])} does not go through, and {process.words} cuts through"
+        verb = "does" if len(names) == 1 else "do"
+        return f"{', '.join(names[:3])} {verb} not go through, and {process.words} cuts through"
     why = refusal(process.name, part.material)
     if why is not None and not (why.unless and getattr(settings, why.unless)):
         lifted = f" (cut.{why.unless} = true lifts this)" if why.unless else ""
@@ -84,8 +86,11 @@ def part_findings(cut: CutPart, process: Process, kerf: float, settings: CutSett
     """What there is to say of a part that the process can make."""
     yield from _holes(cut, process)
     yield from _webs(cut, process)
-    yield from _corners(cut, process, kerf)
+    narrow = [*slot_findings(cut, process, kerf, settings)]
+    yield from narrow or _corners(cut, process, kerf)
     yield from _fits(cut.part, process, settings)
+    if heat := heat_of(process.name, cut.part.material, cut.finishing):
+        yield Finding.note("cut.heat", f"{cut.part.name}: {heat.why}: {heat.step}")
 
 
 def _error(

@@ -6,6 +6,7 @@ with the outline that is wanted.
 
 import io
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -20,7 +21,7 @@ from ezdxf.lldxf.const import DXFError
 
 from mechwright.geometry import Outline
 from mechwright.tolerances import TOLERANCES
-from mechwright_cut.service.services import ServiceRules
+from mechwright_cut.settings.services import ServiceRules
 
 LAYERS = frozenset({"CUT", "ENGRAVE"})
 VERSIONS = {"R2000": "AC1015", "R2010": "AC1024"}
@@ -54,13 +55,22 @@ def faults(content: bytes, wanted: Drawn, rules: ServiceRules) -> list[str]:
     found = _file(document, rules)
     entities = list(document.modelspace())
     found += [said for one in entities for said in _entity(one, rules)]
-    rings = [shapely.Polygon(_points(one)) for one in entities if _cut(one)]
+    rings = _rings(entities)
     if bad := [ring for ring in rings if not shapely.is_valid(ring) or ring.area <= 0]:
         return [*found, f"{len(bad)} contours cross themselves"]
     if not rings:
         return [*found, "nothing is to be cut"]
     rings.sort(key=lambda ring: -ring.area)
     return [*found, *_nested(rings), *_sizes(rings, wanted, rules), *_compared(rings, wanted)]
+
+
+def drawn_rings(content: bytes) -> list[shapely.Polygon]:
+    """The contours that a drawing has cut, filled; chords of arcs within CHORD."""
+    return _rings(list(read(io.StringIO(content.decode("utf-8"))).modelspace()))
+
+
+def _rings(entities: Sequence[DXFEntity]) -> list[shapely.Polygon]:
+    return [shapely.Polygon(_points(one)) for one in entities if _cut(one)]
 
 
 def _file(document: Drawing, rules: ServiceRules) -> list[str]:

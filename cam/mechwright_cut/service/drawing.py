@@ -15,7 +15,7 @@ from mechwright_cad.exporters.curves import vertices
 from mechwright_cad.exporters.dxf import finished, fixed_metadata
 from mechwright_cut.jobs import CutPart
 from mechwright_cut.paths.parallels import beam_path
-from mechwright_cut.service.services import ServiceRules
+from mechwright_cut.settings.services import ServiceRules
 
 CUT, ENGRAVE = "CUT", "ENGRAVE"
 """Layers."""

@@ -1,13 +1,14 @@
 """The keys of ``[cut]``."""
 
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from mechwright.contracts.materials import MATERIALS
 from mechwright.contracts.parameters import FIRST, GIVEN, Parameters
-from mechwright.units import Millimetres, MillimetresPerMin, Ratio, Seconds
+from mechwright.units import Millimetres, MillimetresPerMin, Ratio, Seconds, Unit
 from mechwright_cut.settings.figures import Process, ProcessName, processes
+from mechwright_cut.settings.services import services
 
 LASER, WATERJET, PLASMA, WIRE, SERVICE = NAMES = ("laser", "waterjet", "plasma", "wire", "service")
 """What ``process`` says."""
@@ -65,6 +66,9 @@ class CutSettings(Parameters):
     overcut: Millimetres = Field(0.5, ge=0, le=10, description="Way past the start of each contour.")
     joints: int = Field(0, ge=0, le=12, description="Micro-joints that hold each part in the sheet.")
     joint_width: Millimetres = Field(0.4, gt=0, le=5, description="Width of the material of a micro-joint.")
+    common_lines: bool = Field(
+        False, description="Parts that share a straight edge lie one kerf apart, and it is cut once."
+    )
     engrave_power: Ratio = Field(20.0, gt=0, le=100, description="Power that marks the surface.")
     engrave_feed: MillimetresPerMin = Field(1500.0, gt=0, le=60000, description="Feed of engraving.")
     fits: Literal["ream", "bush", "refuse"] = Field(
@@ -81,6 +85,9 @@ class CutSettings(Parameters):
     )
     start_hole: Millimetres = Field(1.0, gt=0, le=10, description="Diameter of start holes for the wire.")
     tab: Millimetres = Field(1.0, gt=0, le=20, description="Bridge that is cut last, by a wire.")
+    wire_rate: Annotated[float, Field(gt=0, le=10000), Unit("mm^2/min")] | None = Field(
+        None, description="Area of walls that your wire runs along in a minute, over all passes: for times."
+    )
     sheet: CutSheet = Field(CutSheet(), description="The sheet.")
 
     @model_validator(mode="after")
@@ -122,19 +129,21 @@ class CutSettings(Parameters):
         return self.full_power * self.engrave_power / 100, self.engrave_feed
 
     def kind(self, process: str, material: str) -> Process:
-        """The figures of what cuts a material: of a service, that by which it does.
+        """The figures of what cuts a material: of a service, that by which it does, with its own limits.
 
         A service has a fibre laser for metals.
 
         >>> CutSettings(laser="diode").kind("laser", "mdf").words
         'diode laser'
         >>> [CutSettings(by=by).kind("service", "steel").words for by in ("laser", "wire")]
-        ['fibre laser', 'wire erosion']
+        ['fibre laser of SendCutSend', 'wire erosion of SendCutSend']
         """
-        name = self.by if process == SERVICE else process
-        if name != LASER:
-            return processes()[name]
-        if process == LASER:
-            return processes()[f"{self.laser}-laser"]
+        if process == SERVICE:
+            return services()[self.service].limited(self._by_service(material))
+        return processes()[f"{self.laser}-laser" if process == LASER else process]
+
+    def _by_service(self, material: str) -> Process:
+        if self.by != LASER:
+            return processes()[self.by]
         metal = MATERIALS[material].kind in {"steel", "soft metal"} if material in MATERIALS else False
         return processes()["fibre-laser" if metal else "co2-laser"]

@@ -50,6 +50,8 @@ class Process:
         Where the figures are from.
     thickest
         Material or group to its greatest thickness.
+    no_common
+        Why one cut does not serve two parts; empty where it does.
     """
 
     name: str
@@ -70,6 +72,7 @@ class Process:
     control: str
     source: str
     thickest: Mapping[str, float]
+    no_common: str = ""
 
     def least_hole(self, thickness: float) -> float:
         """The least hole in a sheet, mm."""
@@ -188,6 +191,34 @@ def refusal(process: str, name: str) -> Refusal | None:
 @cache
 def _toml_refused() -> Sequence[dict[str, Any]]:
     rows: list[dict[str, Any]] = _toml("refused.toml")["refused"]
+    return rows
+
+
+@dataclass(frozen=True, slots=True)
+class Heat:
+    """What heat does to an edge, and the step that comes before what suffers from it."""
+
+    why: str
+    step: str
+
+
+def heat_of(process: str, name: str, finishing: Sequence[str]) -> Heat | None:
+    """What the heat of a process means for what is done afterwards; None where it means nothing.
+
+    >>> heat_of("co2-laser", "acrylic", ["bond a bush of 8 x 5 H7"]).step
+    'anneal at 70 °C for 2 to 4 h before bonding'
+    >>> heat_of("waterjet", "acrylic", ["bond a bush of 8 x 5 H7"])
+    """
+    for row in _toml_heat():
+        of_it = process in row["processes"] and {*_names(name)} & set(row["words"])
+        if of_it and any(one.startswith(tuple(row["before"])) for one in finishing):
+            return Heat(row["why"], row["step"])
+    return None
+
+
+@cache
+def _toml_heat() -> Sequence[dict[str, Any]]:
+    rows: list[dict[str, Any]] = _toml("heat.toml")["heat"]
     return rows
 
 

@@ -326,9 +326,10 @@ def entry(table: Mapping[str, T], name: str) -> T | None:
     return table[name] if name in table else table.get(material(name).group)
 
 
+_INSTEAD = "take pom or hdpe, or acrylic for a laser"
 NEVER = {
-    "pvc": "its chips and dust give off hydrogen chloride when they get hot; take pom or hdpe",
-    "vinyl": "it is PVC: its chips give off hydrogen chloride when they get hot; take pom or hdpe",
+    "pvc": f"its chips and dust give off hydrogen chloride when they get hot; {_INSTEAD}",
+    "vinyl": f"it is PVC: its chips give off hydrogen chloride when they get hot; {_INSTEAD}",
 }
 """Materials that nobody should cut, with the reason."""
 

@@ -3,9 +3,10 @@
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Protocol, TypeVar
 
 from mechwright.contracts.file_names import hold_files
+from mechwright.contracts.finding import Finding, errors
 from mechwright.contracts.guard import pieces
 from mechwright.contracts.plugin import Plugin
 from mechwright.output.folder import Content
@@ -97,6 +98,22 @@ class Page(Plugin):
         MechwrightError
             It cannot be made; nothing of the whole run is written then.
         """
+
+
+class Judged(Protocol):
+    """What programs and drawings are written of, with what speaks against it."""
+
+    @property
+    def findings(self) -> Sequence[Finding]:
+        """What speaks against it."""
+
+
+J = TypeVar("J", bound=Judged)
+
+
+def unless_forbidden(judged: J) -> J | None:
+    """The same; None where a finding of it forbids its files, so that pages neither name nor write any."""
+    return None if errors(judged.findings) else judged
 
 
 def pages_of(host: "Host", command: str) -> list[Page]:

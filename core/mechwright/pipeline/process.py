@@ -107,8 +107,11 @@ class Process(Plugin):
         return f"move the walls by {-off:+.4f} mm"
 
     def seconds(self, part: "Part", build: Build) -> float | None:  # noqa: ARG002 - for those that know
-        """How long it takes for one piece by estimate; None, the default, where nobody knows."""
+        """How long it takes for one piece by estimate; None, the default, where nothing gives it."""
         return None
+
+    untimed: ClassVar[str] = "not known"
+    """What gives the time of a plate without an estimate, such as "by the service", in place of one."""
 
 
 class ProcessSettings(Parameters):
@@ -198,13 +201,12 @@ def _refused(build: Build) -> Iterator[Finding]:
                 lack = f"no process is named {name!r}; {hint}"
                 yield Finding.error("process.unknown", key, lack, stage=Stage.MACHINING)
         elif (why := known[name].refuses(part, build)) and not _is_told(known[name], part, build, why):
-            able = sorted(other.name for other in known.values() if not other.refuses(part, build))
+            able = _able(known.values(), part, build)
             yield Finding.error(
                 "process.refused",
                 key,
                 f"{known[name].title} does not make {part.name}: {why}",
-                remedy=" or ".join(_line(build.design, part.name, other) for other in able)
-                or "no other process that is installed makes it either; change the part",
+                remedy=_remedy(build.design, part.name, able),
                 stage=Stage.MACHINING,
             )
 
@@ -215,6 +217,28 @@ def _is_told(process: Process, part: "Part", build: Build, why: str) -> bool:
         return any(one.message == why for one in errors(process.objections(part, build)))
     except MechwrightError:
         return False
+
+
+def _able(processes: "Iterable[Process]", part: "Part", build: Build) -> list[str]:
+    """Processes that make a plate: first those that need no other key, and of these what loses least."""
+    ranked = []
+    for one in processes:
+        if not one.refuses(part, build):
+            try:
+                wrong, lost = errors(one.objections(part, build)), len(one.loses(part, build))
+            except MechwrightError:  # such as a table of its own that cannot be obeyed
+                continue
+            ranked.append((bool(wrong), lost, one.name))
+    needless = [name for wrong, _, name in sorted(ranked) if not wrong]
+    return needless or [name for _, _, name in sorted(ranked)]
+
+
+def _remedy(design: "Design", part: str, able: "Sequence[str]") -> str:
+    """The line for the first process, and the names of the others."""
+    if not able:
+        return "no other process that is installed makes it either; change the part"
+    others = " or ".join(toml(name) for name in able[1:])
+    return _line(design, part, able[0]) + (f', or {others} in place of "{able[0]}"' if others else "")
 
 
 def _line(design: "Design", part: str, process: str) -> str:

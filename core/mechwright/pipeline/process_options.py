@@ -27,7 +27,9 @@ class ProcessOption:
     remedies
         Lines without which it does not: empty where it makes the plate as the file stands.
     seconds
-        One piece by estimate; None where nobody knows.
+        One piece by estimate; None where there is none.
+    untimed
+        What gives its time then, such as "by the service".
     loses
         What the plate has less of than as drawn, each in a few words.
     """
@@ -39,6 +41,7 @@ class ProcessOption:
     remedies: tuple[str, ...] = ()
     seconds: float | None = None
     loses: tuple[str, ...] = ()
+    untimed: str = ""
 
     @property
     def able(self) -> bool:
@@ -55,6 +58,7 @@ class ProcessOption:
             "refused": self.refused or None,
             "remedies": list(self.remedies),
             "seconds": None if self.seconds is None else round(self.seconds, 1),
+            "untimed": self.untimed or None,
             "loses": list(self.loses),
         }
 
@@ -81,7 +85,8 @@ def _option(part: Part, process: Process, build: Build) -> ProcessOption:
         seconds, loses = process.seconds(part, build), tuple(process.loses(part, build))
     except MechwrightError as error:  # such as a table of its own that cannot be obeyed
         return ProcessOption(part.name, process.name, chosen, str(error))
-    return ProcessOption(part.name, process.name, chosen, "", remedies, seconds, loses)
+    untimed = process.untimed if seconds is None else ""
+    return ProcessOption(part.name, process.name, chosen, "", remedies, seconds, loses, untimed)
 
 
 def options_table(options: Sequence[ProcessOption]) -> list[str]:
@@ -106,7 +111,7 @@ def _row(one: ProcessOption) -> tuple[str, str, str, str]:
     if one.refused:
         return one.part, name, "", f"refused: {one.refused}"
     said = [*one.loses, *one.remedies]
-    return one.part, name, "" if one.seconds is None else _time(one.seconds), "; ".join(said)
+    return one.part, name, one.untimed if one.seconds is None else _time(one.seconds), "; ".join(said)
 
 
 def _time(seconds: float) -> str:

@@ -315,10 +315,11 @@ def _with(bench: Bench, finding: Finding, change: Change | None) -> Finding:
         return finding
     if change is not None and holds(bench, same(finding, bench.found({})) or finding, change):
         return replace(finding, fix=change, remedy=said(bench, change))
-    if finding.remedy and _about_no_key(bench, finding):
-        return finding  # about what no change sets, such as the family of a stage
+    keys = related(bench, finding)
+    if finding.remedy and (_about_no_key(bench, finding) or not any(key.kind != "other" for key in keys)):
+        return finding  # about what no change sets, such as the family of a stage, or a drawing
     if (first := _first_step(bench, finding)) is not None:
         return replace(finding, remedy=first)
-    tried = ", ".join(key.name for key in related(bench, finding)) or finding.parameter
+    tried = ", ".join(key.name for key in keys) or finding.parameter
     ended = f" in {bench.tries} tries" if bench.spent else ""
     return replace(finding, remedy=f"no remedy found by changing {tried}{ended}")

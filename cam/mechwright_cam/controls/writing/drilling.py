@@ -3,9 +3,9 @@
 import math
 
 from mechwright_cam.controls.writing.spelling import Spelling
-from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Drill, Rapid, Tap
+from mechwright_plane.text import number
 
 PECK_GAP = 0.25
 """Height above the last depth at which a peck that is written out starts to feed, mm: out of the chips."""

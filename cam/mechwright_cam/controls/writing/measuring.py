@@ -8,12 +8,12 @@ from collections.abc import Sequence
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.writing.probing import BACK, Probing
-from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Program
 from mechwright_cam.program.touches import ToolTouches
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import number
 
 
 class Measuring(Probing):

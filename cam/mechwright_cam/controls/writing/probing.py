@@ -5,12 +5,12 @@ from typing import ClassVar
 
 from mechwright.errors import ProgramError
 from mechwright_cam.controls.writing.sections import Sections
-from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import Program
 from mechwright_cam.program.touches import Touches
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import number
 
 FAST, SLOW = 150.0, 25.0
 """Feeds of the two touches, mm/min: how far the machine goes on after the second is below a micrometre."""

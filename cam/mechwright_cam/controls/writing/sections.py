@@ -14,7 +14,6 @@ import math
 from collections.abc import Sequence
 
 from mechwright_cam.controls.writing.drilling import Drilling
-from mechwright_cam.controls.writing.text import number
 from mechwright_cam.controls.writing.writer import Writer
 from mechwright_cam.program.moves import (
     OPERATION_COMMENT,
@@ -29,6 +28,7 @@ from mechwright_cam.program.moves import (
     ToolSection,
 )
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import number
 
 COOLANT = {"flood": 8, "mist": 7}
 """The usual M codes."""

@@ -8,11 +8,11 @@ from mechwright_cam.controls.contract import METRIC, Control
 from mechwright_cam.controls.dialect import Corners, Dialect
 from mechwright_cam.controls.offsets import DOffset
 from mechwright_cam.controls.words.kept import left_over
-from mechwright_cam.controls.writing.text import COMMENT_WIDTH, comment_lines, number
 from mechwright_cam.controls.writing.writer import Writer, with_numbers
 from mechwright_cam.program.moves import Program, ToolSection
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.tool import Tool
+from mechwright_plane.text import COMMENT_WIDTH, comment_lines, number
 
 SHORT = {"mm": "mm", "inch": "in"}
 """Units as they stand behind a number."""

@@ -3,10 +3,10 @@
 import math
 
 from mechwright.tolerances import TOLERANCES
-from mechwright_cam.controls.writing.text import floored, number
 from mechwright_cam.program.moves import Feed, FeedArc, Program, ToolSection
 from mechwright_cam.shop.tool import Tool
 from mechwright_plane.path import NOISE
+from mechwright_plane.text import floored, number
 
 HIGHEST_NUMBER = 99999
 """The largest N number that all controls take."""

@@ -10,6 +10,16 @@ from mechwright_plane.path import DECIMALS, NOISE
 COMMENT_WIDTH = 70
 """Longest comment text: Grbl's line buffer of 80 characters is the shortest of the common controls."""
 
+LINUXCNC_ACTIVE = (
+    *("MSG", "DEBUG", "PRINT", "LOG", "LOGOPEN", "LOGAPPEND", "LOGCLOSE"),
+    *("PROBEOPEN", "PROBECLOSE", "PY", "PYRUN", "PYRELOAD", "ABORT"),
+)
+"""Words that LinuxCNC obeys at the start of a comment."""
+GRBL_REALTIME = "?!~"
+"""Grbl takes these out of the stream wherever they stand: ``!`` is a feed hold."""
+GRBL_COMMENT_WIDTH = 58
+"""Senders and pendants for Grbl show, or take, lines of 60 characters."""
+
 _SPELLED = str.maketrans(
     {"(": "[", ")": "]", "×": "x", "·": ".", "°": " deg", "ø": "D", "Ø": "D", "⌀": "D", "µ": "u", "μ": "u"}
     | {"–": "-", "—": "-", "−": "-", "±": "+-", "≤": "<=", "≥": ">=", "²": "2", "³": "3", "ß": "ss"}

@@ -2,12 +2,13 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Literal
 
 from mechwright.contracts.materials import MATERIALS
+from mechwright_cut.settings.figures import Process
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +58,23 @@ class ServiceRules:
         """By how much a path stands off the outline, mm."""
         group = MATERIALS[material].group if material in MATERIALS else material
         return 0.0 if self.kerf == "service" or group in self.own_in else self.kerf_width / 2
+
+    def limited(self, process: Process) -> Process:
+        """The process with what the service asks for besides.
+
+        >>> from mechwright_cut.settings.figures import processes
+        >>> snapcut = services()["snapcut"].limited(processes()["fibre-laser"])
+        >>> snapcut.words, snapcut.least_hole(6.0)
+        ('fibre laser of SnapCut', 9.0)
+        """
+        jet = process.name == "waterjet"
+        return replace(
+            process,
+            words=f"{process.words} of {self.words}",
+            hole=max(process.hole, self.feature, self.waterjet_hole if jet else 0.0),
+            hole_share=max(process.hole_share, self.hole_share),
+            corner=max(process.corner, self.waterjet_corner if jet else 0.0),
+        )
 
     def least_hole(self, thickness: float, waterjet: bool) -> float:
         """The least hole in a sheet, mm."""
