@@ -22,6 +22,7 @@ from mechwright_cut.proof.wire_judge import WireQuestion, prove_wire
 from mechwright_cut.rows import SHORTEST
 from mechwright_cut.rules.part_rules import loses, part_findings, refused
 from mechwright_cut.rules.service_rules import service_findings
+from mechwright_cut.rules.unused_keys import unused_keys
 from mechwright_cut.settings.cut_settings import NAMES, SERVICE, WIRE, CutSettings
 from mechwright_cut.settings.cut_table import cut_settings
 from mechwright_cut.settings.figures import Kerf, Process, kerf_of, refusal
@@ -183,6 +184,7 @@ class Cutting:
         return tuple(self._findings())
 
     def _findings(self) -> Iterator[Finding]:
+        yield from unused_keys(self._build.design.content.get("cut", ()), self.plates)
         for name, parts in self.plates.items():
             kinds = {one.name: one for one in (self.settings.kind(name, part.material) for part in parts)}
             for process in kinds.values():

@@ -27,6 +27,7 @@ READS_ITSELF = {
     "core/mechwright/standards/table.py",
     "core/mechwright/studies/checks.py",
     "core/mechwright/studies/fingerprint.py",
+    "core/mechwright/worker_pool/store.py",
     "cam/mechwright_cad/live/server.py",
     "cam/mechwright_cut/settings/services.py",
     "cam/mechwright_cut/settings/figures.py",
