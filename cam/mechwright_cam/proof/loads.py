@@ -31,6 +31,18 @@ from mechwright_cam.shop.cutter import BLUNT, POINTED, approach
 from mechwright_cam.shop.machine import Machine
 from mechwright_cam.shop.power import WATTS, available, drilling_force, milling_force
 
+ALIKE = 1e-6
+"""Share by which loads differ that are told as one: rounding, which depends on the processor, is less."""
+
+
+def first_greatest(values: Array) -> int:
+    """Place of the first of the values (n,) that are the greatest, whatever rounds the others.
+
+    >>> first_greatest(np.array([1.0, 3.0, 3.0 + 1e-9]))
+    1
+    """
+    return int(np.argmax(values >= (1 - ALIKE) * values.max()))
+
 
 @dataclass(frozen=True)
 class Taken:
@@ -285,7 +297,7 @@ def works_of(loads: Loads, run: Run, machine: Machine) -> tuple[Work, ...]:
     for name, first, last in operation_steps(run):
         for tool in dict.fromkeys(loads.tool[(loads.step >= first) & (loads.step < last)].tolist()):
             mine = np.flatnonzero((loads.step >= first) & (loads.step < last) & (loads.tool == tool))
-            worst = mine[np.argmax(share[mine])]
+            worst = mine[first_greatest(share[mine])]
 
             def most(values: Array, mine: Ints = mine) -> float:
                 return float(values[mine].max())

@@ -68,7 +68,7 @@ def unchecked(job: Job) -> list[str]:
 
 def _um(value: float) -> float:
     """A length in µm, to a tenth."""
-    return round(value * MICRONS, 1)
+    return round(value * MICRONS, 1) + 0.0  # no zero has a sign
 
 
 def _part(job: Job) -> dict[str, Any]:

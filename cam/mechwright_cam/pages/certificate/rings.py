@@ -103,7 +103,7 @@ def _circles(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
 
 
 def _node(point: Array, centre: Array | None = None, turn: float = 0.0) -> list[float]:
-    x, y = np.round(point * MICRONS, 1).tolist()
+    x, y = (np.round(point * MICRONS, 1) + 0.0).tolist()  # no zero has a sign
     if centre is None:
         return [x, y]
-    return [x, y, *np.round(centre * MICRONS, 2).tolist(), int(turn)]
+    return [x, y, *(np.round(centre * MICRONS, 2) + 0.0).tolist(), int(turn)]

@@ -8,6 +8,7 @@ import shapely
 
 from mechwright_cam.controls.reading import Kind
 from mechwright_cam.pages.job.steps import line_numbers, places
+from mechwright_cam.proof.loads import first_greatest
 from mechwright_cam.proof.paths import NEAR
 from mechwright_cam.proof.report import Check, Proof
 from mechwright_cam.proof.scene import Scene
@@ -124,7 +125,7 @@ def _hardest(scene: Scene) -> Iterator[Mark]:
     loads = scene.simulation.loads
     for number in np.unique(loads.tool).tolist():
         own = np.flatnonzero(loads.tool == number)
-        place = int(own[np.argmax(loads.power[own])])
+        place = int(own[first_greatest(loads.power[own])])
         step = int(loads.step[place])
         angle = float(np.degrees(loads.engagement[place]))
         text = (
