@@ -4,7 +4,7 @@ What a plugin or a script needs has its name here; each is imported when it is f
 before that: until the program listens, the keyboard stops it with a traceback.
 """
 
-__version__ = "0.1.0"
+__version__ = "0.9.0"
 
 TYPE_CHECKING = False  # as checkers know it by its name; importing it takes longer than everything here
 if TYPE_CHECKING:
