@@ -77,7 +77,7 @@ def sides(outline: Outline) -> list[Line]:
     >>> from mechwright.geometry import Loop
     >>> plate = Outline(Loop.polygon([(0, 0), (20, 0), (20, 8), (12, 8), (12, 6), (0, 6)]))
     >>> [side.start for side in sides(plate)]  # beside the step at y = 6 no part can stand
-    [(0.0, 0.0), (20.0, 0.0), (12.0, 8.0), (0.0, 6.0)]
+    [(0.0, 0.0), (20.0, 0.0), (20.0, 8.0), (0.0, 6.0)]
     """
     points = outline.outer.flatten()
     found = []
