@@ -106,6 +106,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     version, output = asked.version, asked.output.resolve()
     if VERSION.fullmatch(version) is None:
         raise SystemExit(f"{version}: is no version; write one such as 1.2.3")
+    if output != ROOT / "dist" and output.exists() and (not output.is_dir() or any(output.iterdir())):
+        raise SystemExit(f"--output: {output} is not empty, and would be emptied; name a new folder")
     if run(["git", "status", "--porcelain"], ROOT):
         raise SystemExit("the checkout has changes; commit them: git commit -a")
     tag = f"v{version}"

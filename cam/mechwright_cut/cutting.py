@@ -1,7 +1,7 @@
 """Sheets, programs and proofs of a build: the one place where planning and proof meet."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from mechwright.contracts.finding import Finding, Stage, errors
@@ -167,7 +167,10 @@ class Cutting:
         return [*self._told(name, self._cut_part(name, process, part), process, kerf)]
 
     def _told(self, name: str, cut: CutPart, process: Process, kerf: Kerf) -> Iterator[Finding]:
-        yield from part_findings(cut, process, kerf.width, self.settings)
+        for one in part_findings(cut, process, kerf.width, self.settings):
+            # Who sends a drawing away measures no kerf, and chooses no beam.
+            drawn = name == SERVICE and one.code == "cut.path"
+            yield replace(one, remedy=one.remedy.partition(", or ")[0]) if drawn else one
         if name == SERVICE:
             jet = process.name == "waterjet"
             yield from service_findings(cut, services()[self.settings.service], jet)
@@ -198,15 +201,16 @@ class Cutting:
         ]
         yield from found
         # A contour that cannot be cut is told by the rules of its part, where they find why.
-        yield from (one for one in self._planned[1] if one.code != "cut.path" or not errors(found))
+        told = {one.code for one in found} & {"cut.path", "cut.start-hole"}
+        yield from (one for one in self._planned[1] if one.code != "cut.path" or not told)
         jobs = [job for job, _ in self._planned[0] if not job.process.no_common]
         alone = jobs and not self.settings.joints and not any(job.common for job in jobs)
         if self.settings.common_lines and alone:
             yield Finding.warning(
                 "cut.common-lines",
                 "cut.common_lines",
-                f"no two parts of a sheet have straight edges of at least {SHORTEST:g} mm outermost; none is "
-                "shared",
+                f"no two parts share an edge: it has to be straight, outermost and at least {SHORTEST:g} mm "
+                "long, the shorter at least half the longer, and the row has to go on the sheet",
                 remedy="set cut.common_lines = false",
                 stage=Stage.MACHINING,
             )

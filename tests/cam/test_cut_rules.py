@@ -375,7 +375,7 @@ def test_aluminium_is_not_cut_by_a_co2_laser_and_the_line_to_type_says_what_does
         ("waterjet", 'control = "grbl-laser"', "cut.control"),
         ("waterjet", "sheet = { length = 100, width = 100 }", "cut.sheet"),
         ("waterjet", "kerf = 9.0", "cut.path"),
-        ("wire", "start_hole = 9.0", "cut.path"),
+        ("wire", "start_hole = 9.0", "cut.start-hole"),
     ],
 )
 def test_settings_that_do_not_go_are_findings(tmp_path, process, table, code):

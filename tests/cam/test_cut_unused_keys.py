@@ -11,9 +11,9 @@ from mechwright_cut.settings.cut_settings import CutSettings
 @pytest.mark.parametrize(
     ("process", "keys", "told"),
     [
-        ("service", {"joints": "2", "feed": "500", "fits": '"ream"'}, ["joints", "feed"]),
-        ("waterjet", {"wire_rate": "50", "pierce": "0.5"}, ["wire_rate"]),
-        ("wire", {"feed": "500", "passes": "2", "service": '"ponoko"'}, ["feed", "service"]),
+        ("service", {"joints": "2", "lead": "2", "kerf": "0.2", "fits": '"ream"'}, ["joints", "lead"]),
+        ("waterjet", {"tab": "2", "wire_rate": "50", "pierce": "0.5"}, ["tab"]),
+        ("wire", {"overcut": "1", "passes": "2", "service": '"ponoko"'}, ["overcut"]),
         ("plasma", {"power": "60", "lead": "2"}, ["power"]),
     ],
 )

@@ -92,6 +92,7 @@ def mechwright_register():
         ("def judge(self, params): return []", "judge"),
         ("def evaluate(self, batch, columns, stage=None): return None", "evaluate"),
         ("check = judge = 7", "check"),
+        ("@__import__('functools').wraps(Family.check)\n    def check(self, params): return []", "check"),
     ],
 )
 def test_a_family_that_overrides_what_follows_from_its_rules_is_refused_by_name(found, tmp_path, own, name):

@@ -3,7 +3,7 @@
 import numpy as np
 from test_design_rules import rule, table
 
-from mechwright import Stage, in_turn
+from mechwright import Finding, Procedure, Stage, in_turn
 from mechwright.contracts.rule_list import OneByOne
 
 
@@ -28,3 +28,12 @@ def test_they_stay_where_no_rule_of_the_stage_lacks_a_formula():
     assert sorted_out(rules, some) == ([], [0, 1], [])
     assert sorted_out(rules.__class__((rules.every[0],), turns=True), some, Stage.MOTION) == ([], [], [0, 1])
     assert np.array_equal(some.params.a, [[-1], [1]])
+
+
+def test_a_procedure_that_lists_no_codes_forbids_rows_with_those_that_it_finds():
+    def inspect(t):
+        return [Finding.error("found", "a", "bad")] if t.params.a < 0 else []
+
+    codes = {}
+    in_turn(Procedure((), inspect)).allowed(table(a=[-1, 1]), Stage.PARTS, codes.setdefault)
+    assert {code: places.tolist() for code, places in codes.items()} == {"found": [0]}

@@ -49,7 +49,7 @@ def slot_findings(cut: CutPart, process: Process, kerf: float, settings: CutSett
 
 def start_hole_findings(cut: CutPart, settings: CutSettings) -> Iterator[Finding]:
     """An error for the narrowest opening, if a start hole for the wire has no room in it."""
-    able = [(widest_circle(loop), loop) for loop in cut.outline.inner if not loop.is_circle]
+    able = [(widest_circle(loop), loop) for loop in cut.outline.inner]
     middle, loop = min(able, key=lambda one: one[0].length, default=(None, None))
     if middle is None or loop is None or middle.length >= settings.start_hole / 2 + NARROW:
         return

@@ -8,14 +8,14 @@ BEAMS = frozenset({"laser", "waterjet", "plasma"})
 PATHS = BEAMS | {"wire"}
 """Processes whose paths are planned here."""
 USED_BY = {
-    **dict.fromkeys(("kerf", "kerfs", "sheet", "passes", "joints", "joint_width"), PATHS),
-    **dict.fromkeys(("control", "feed", "pierce", "lead", "overcut"), BEAMS),
+    **dict.fromkeys(("sheet", "joints", "joint_width"), PATHS),
+    **dict.fromkeys(("control", "lead", "overcut"), BEAMS),
     **dict.fromkeys(("power", "full_power"), frozenset({"laser", "waterjet"})),
-    **dict.fromkeys(("laser", "engrave_power", "engrave_feed"), frozenset({"laser"})),
-    **dict.fromkeys(("service", "by"), frozenset({"service"})),
-    **dict.fromkeys(("offsets", "start_hole", "tab", "wire_rate"), frozenset({"wire"})),
+    **dict.fromkeys(("engrave_power", "engrave_feed"), frozenset({"laser"})),
+    **dict.fromkeys(("offsets", "start_hole"), frozenset({"wire", "service"})),
+    "tab": frozenset({"wire"}),
 }
-"""Key to the processes that use it; all processes use the others."""
+"""Key to the processes that use it; the others also say what processes that are not chosen would take."""
 
 
 def unused_keys(stated: Collection[str], chosen: Collection[str]) -> Iterator[Finding]:

@@ -77,7 +77,10 @@ class Plugin(ABC):
         """What else keeps a class from being used, in words that follow its name; nothing if it is sound."""
         contract = contract_of(cls) or cls
         for name in sorted(contract.derived):
-            if inspect.unwrap(getattr(cls, name)) is not vars(contract)[name]:
+            own = getattr(cls, name)
+            while getattr(own, _MARK, False):
+                own = own.__wrapped__
+            if own is not vars(contract)[name]:
                 return f"overrides {name}, which is derived since hook API 3; {MOVING} says how to move"
         old = [name for name in _EARLIER if name in vars(contract)]
         return f"its contract has {old[0]}; annotations of its methods say what they give" if old else ""

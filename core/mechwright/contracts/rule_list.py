@@ -154,14 +154,16 @@ class Rules(Generic[D]):
                     raise
                 wrong, failed = _one_by_one(rule, table, stage, error)
                 for place, reason in failed.items():
-                    fail(rule.codes[0], int(places[place]), reason)
+                    fail(next(iter(rule.codes), "procedure"), int(places[place]), reason)
                 sound = np.array([place for place in range(table.size) if place not in failed], np.intp)
                 places, table, wrong = places[sound], table.rows(sound), wrong[sound]
             if wrong is None or not wrong.any():
                 continue
-            first = [(rule.codes[0], wrong)]
-            for code, which in rule.forbidding(table, wrong, stage) if isinstance(rule, Procedure) else first:
-                forbid(code, places[which])
+            if isinstance(rule, Procedure):
+                for code, which in rule.forbidding(table, wrong, stage):
+                    forbid(code, places[which])
+            else:
+                forbid(rule.codes[0], places[wrong])
             left = np.flatnonzero(~wrong)
             places, table = places[left], table.rows(left)
         return table, places
