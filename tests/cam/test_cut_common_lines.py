@@ -39,7 +39,7 @@ from mechwright_cut.cutting import question
 from mechwright_cut.jobs import PIERCE, target
 from mechwright_cut.paths.order import contours
 from mechwright_cut.programs.words import moves
-from mechwright_cut.proof.judge import _slack, prove
+from mechwright_cut.proof.judge import prove, slack
 
 WANTED = examples(60, 320)
 ROOMY = {"length": 200.0, "width": 150.0, "margin": 2.0}
@@ -340,4 +340,4 @@ def test_the_part_of_a_row_is_cut_in_stretches_that_end_in_the_lines():
 
 def test_a_beam_grazes_far_less_than_its_own_width():
     """Else a kerf of hundredths would be let through what is loose."""
-    assert [_slack(SimpleNamespace(kerf=kerf)) for kerf in (0.2, 0.01)] == [0.005, 0.0025]
+    assert [slack(SimpleNamespace(kerf=kerf)) for kerf in (0.2, 0.01)] == [0.005, 0.0025]

@@ -174,7 +174,7 @@ def _pieces(reading: Reading, asked: Question) -> list[Check]:
         again = seen[key] > 1
         if again:
             continue
-        grazed = shapely.buffer(taken, -_slack(asked)) if asked.common else taken
+        grazed = shapely.buffer(taken, -slack(asked)) if asked.common else taken
         hit = [one for one in loose if shapely.intersection(one, grazed).area > SPECK]
         late += [f"line {first.line}: cuts into what is loose" for _ in hit[:1]]
         loose = [shapely.difference(one, taken) for one in loose] if asked.common else loose
@@ -223,14 +223,14 @@ def _pierce(first: Motion, every: shapely.Geometry, asked: Question) -> list[str
     return [f"line {first.line}: the pierce at X{x:g} Y{y:g} is {off:.3f} mm off a wall, not {room:.3f}"]
 
 
-def _slack(asked: Question) -> float:
+def slack(asked: Question) -> float:
     """What a beam may graze, mm: far less than its own width."""
     return min(WALL, asked.kerf / 4)
 
 
 def _is_open(first: Motion, solid: Sequence[shapely.Geometry], asked: Question) -> bool:
     """Whether a run begins in a cut: nothing is left under the beam, so that nothing is pierced."""
-    beam = shapely.buffer(shapely.Point(first.start), asked.kerf / 2 - _slack(asked))
+    beam = shapely.buffer(shapely.Point(first.start), asked.kerf / 2 - slack(asked))
     return not any(shapely.intersects(one, beam) for one in solid)
 
 
