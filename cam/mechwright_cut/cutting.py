@@ -12,6 +12,7 @@ from mechwright.pipeline.process import plates_by, process_of
 from mechwright_cut.cuts import Contour, WireContour
 from mechwright_cut.jobs import CutJob, CutPart, cut_part
 from mechwright_cut.nest import nested
+from mechwright_cut.paths.common_lines import UNSHARED
 from mechwright_cut.paths.order import contours
 from mechwright_cut.paths.wire import wire_contours
 from mechwright_cut.programs.grbl_laser import grbl_laser
@@ -211,7 +212,7 @@ class Cutting:
                 "cut.common_lines",
                 f"no two parts share an edge: it has to be straight, outermost and at least {SHORTEST:g} mm "
                 "long, the shorter at least half the longer, and the row has to go on the sheet",
-                remedy="set cut.common_lines = false",
+                remedy=UNSHARED,
                 stage=Stage.MACHINING,
             )
 
@@ -295,7 +296,7 @@ def _error(code: str, key: str, message: str, remedy: str) -> Finding:
 
 def _no_common_lines(settings: CutSettings, name: str, process: Process) -> Iterator[Finding]:
     """Why parts cannot share edges by a process, or with other keys."""
-    remedy = "set cut.common_lines = false"
+    remedy = UNSHARED
     if name == SERVICE:
         said = "common lines, and a service lays the parts on its sheets: each drawing has one part"
         yield _error("cut.common-lines", "cut.common_lines", said, remedy)

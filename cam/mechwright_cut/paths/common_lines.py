@@ -22,7 +22,8 @@ from mechwright_plane.path import polyline
 
 LEADS = (1.0, 0.6, 1.5, 2.0, 3.0)
 """Shares of the radius of leads by which a common line begins before the parts."""
-REST = "set cut.common_lines = false"
+UNSHARED = "set cut.common_lines = false"
+"""What helps wherever edges cannot be shared."""
 
 
 def common_contours(job: CutJob, waste: Waste) -> list[Contour]:
@@ -79,7 +80,7 @@ def _common(job: CutJob, one: CommonLine, waste: Waste) -> Contour:
     begins = [_begin(job, end, other, waste) for end, other in (ends, ends[::-1])]
     able = [(room, k, begin) for k, (room, begin) in enumerate(begins) if begin is not None]
     if not able:
-        raise GeometryError(f"{name}: there is no room to pierce before it; {REST}")
+        raise GeometryError(f"{name}: there is no room to pierce before it; {UNSHARED}")
     _, k, begin = max(able, key=lambda row: (round(row[0], 3), -row[1]))
     start, end = ends[:: 1 - 2 * k]
     past = _beyond(end, start, job.settings.overcut)

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from mechwright.arrays import Array
 from mechwright.contracts.evaluation import Batch, Columns
 from mechwright.contracts.finding import Stage
-from mechwright.contracts.parameters import value_at
 from mechwright.contracts.refusals import refusals
 from mechwright.contracts.singly import Asked, singly
 from mechwright.contracts.slices import Slices
@@ -41,25 +40,6 @@ class Designs:
 
     def __len__(self) -> int:
         return min(values.size for values in self.varied.values())
-
-    def __getitem__(self, name: str) -> Any:
-        """The values (n,) of a parameter that is varied, the one value of another."""
-        if name in self.varied:
-            return self.varied[name]
-        return value_at(self.common, name)
-
-    def full(self, name: str) -> NDArray[Any]:
-        """The values (n,) of a parameter, varied or not."""
-        return np.broadcast_to(self[name], len(self)) if name not in self.varied else self.varied[name]
-
-    def figures(self, name: str, figure: Callable[[str], float]) -> Array:
-        """A figure (n,) of what the texts of a parameter name, such as the density of a material."""
-        texts, which = np.unique(self.full(name).astype(str), return_inverse=True)
-        return np.array([figure(text) for text in texts.tolist()])[which]
-
-    def some(self, places: "NDArray[Any] | slice") -> "Designs":
-        """Those at these places, or where a mask is true."""
-        return Designs(self.common, {name: values[places] for name, values in self.varied.items()})
 
 
 @dataclass

@@ -1,13 +1,12 @@
 """Sizes of joints that a design leaves out: the usual ones, or smaller ones where links are short."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import astuple, dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mechwright.contracts.by_arrays import Designs
 from mechwright.contracts.finding import Finding
 from mechwright.contracts.parameters import Parameters
 
@@ -65,27 +64,6 @@ def fitting(usual: JointSizes, given: Mapping[str, Any], fits: Fits) -> JointSiz
 def left_out(params: Parameters) -> frozenset[str]:
     """Which of the sizes a table leaves out."""
     return frozenset(NAMES) - params.model_fields_set
-
-
-def sized(
-    designs: Designs, usual: JointSizes, fits: Callable[[Designs], Fits], by: Collection[str]
-) -> Designs:
-    """Designs of which each has the sizes that it would have by itself.
-
-    Parameters
-    ----------
-    fits
-        Of designs, whether sizes fit them.
-    by
-        Parameters that decide it, beside the sizes.
-    """
-    out = left_out(designs.common) - set(designs.varied)
-    if not out or not {*by, *NAMES} & set(designs.varied):
-        return designs
-    given = {name: designs[name] for name in NAMES if name not in out}
-    found = fitting(usual, given, fits(designs))
-    filled = {name: np.broadcast_to(getattr(found, name), len(designs)) for name in sorted(out)}
-    return Designs(designs.common, {**designs.varied, **filled})
 
 
 def told(code: str, usual: JointSizes, params: Parameters) -> Iterator[Finding]:
